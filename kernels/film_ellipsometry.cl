@@ -1,0 +1,36 @@
+// psi and Delta of a coherent film, tan(psi) exp(i Delta) = -r_p / r_s, over (thickness scale, angle, wavelength).
+//
+// The sign follows Byrnes (tmm), with r_p the ratio of the tangential fields as in film.clh. Radians, psi in
+// [0, pi / 2], Delta in (-pi, pi]. Rows, work-items and launches as in film.cl, one thickness a scale.
+#include "film.clh"
+
+kernel void film_ellipsometry(global const real *media,        // (M + 1, MEDIUM_ROWS, stride)
+                              global const real *critical_mu2, // (M + 1, stride / LANES)
+                              constant int *segments,          // (segment_count, 3)
+                              int segment_count, int layer_count, int stride,
+                              global const real *incident,     // (3, stride): n0, 1 / n0, 1 / wavelength in 1 / nm
+                              global const real *cos_theta,    // (angles)
+                              global const real *thickness_nm, // (scales, variants, M)
+                              global const real *weights,      // unused: variants is 1
+                              int variants, int angles, int rows, int row_origin,
+                              global real *psi, global real *Delta) { // (rows - row_origin or fewer, stride)
+    int block = get_global_id(0), tile_row = get_global_id(1);
+    int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
+    if (row >= rows || block * LANES >= stride) return;
+
+    film_stack stack = {media, critical_mu2, segments, segment_count, layer_count, stride};
+    incidence in = incidence_at(incident, stride, block, cos_theta[angle]);
+    admittance substrate = admittance_of(stack, layer_count, in);
+    magnitude size = no_magnitude();
+    column f = coherent_field(stack, thickness_nm + scale * variants * layer_count, in, substrate, &size);
+    rescale(&f, 1, &size);
+    amplitudes s = split_field(f.s, in.b_s), p = split_field(f.p, in.b_p);
+
+    // -r_p / r_s = numerator / denominator, with r = reflected / incident
+    complex numerator = complex_neg(complex_mul(p.reflected, s.incident));
+    complex denominator = complex_mul(s.reflected, p.incident);
+    complex ratio = complex_mul(numerator, complex_of(denominator.re, -denominator.im));
+    int out = tile_row * (stride / LANES) + block;
+    lane_store(atan2(sqrt(complex_norm(numerator)), sqrt(complex_norm(denominator))), psi, out);
+    lane_store(atan2(ratio.im, ratio.re), Delta, out);
+}

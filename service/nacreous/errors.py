@@ -1,0 +1,64 @@
+"""What can go wrong, said so that the reader can mend it.
+
+These errors know nothing of HTTP or of exit codes: the command line and the service each map them once.
+"""
+
+__all__ = [
+    "BudgetError",
+    "DeviceError",
+    "FileFormatError",
+    "NacreousError",
+    "NumericalError",
+    "SpecError",
+]
+
+
+class NacreousError(Exception):
+    """Any failure that Nacreous foresees; its text is one message for a person."""
+
+
+class SpecError(NacreousError):
+    """A field of a spec, an option or a file name is not usable.
+
+    Parameters
+    ----------
+    field : str
+        Dotted path of the field, such as ``"stack.layers.0.thickness_nm"``; empty for the whole document.
+    expected, got : str
+        What would have been right, and what came.
+    remedy : str, optional
+        What to do about it: one sentence.
+    """
+
+    def __init__(self, field: str, expected: str, got: str, remedy: str = "") -> None:
+        self.field, self.expected, self.got, self.remedy = field, expected, got, remedy
+        where = f"{field}: " if field else ""
+        super().__init__(f"{where}expected {expected}, got {got}" + (f"; {remedy}" if remedy else ""))
+
+    def under(self, field: str) -> "SpecError":
+        """Return the same error one level further out: its field below `field`."""
+        path = f"{field}.{self.field}" if self.field else field
+        return type(self)(path, self.expected, self.got, self.remedy)
+
+
+class BudgetError(NacreousError):
+    """A table needs more bytes than it may have; raised before anything is allocated."""
+
+    def __init__(self, what: str, needed_bytes: int, limit_bytes: int) -> None:
+        self.needed_bytes, self.limit_bytes = needed_bytes, limit_bytes
+        super().__init__(
+            f"{what} needs {needed_bytes / 2**20:,.1f} MiB and the limit is {limit_bytes / 2**20:,.1f} MiB; "
+            "use fewer samples on an axis, or raise NACREOUS_BYTE_BUDGET"
+        )
+
+
+class DeviceError(NacreousError):
+    """No OpenCL device can do the work; the text says what to install or to set."""
+
+
+class NumericalError(NacreousError):
+    """A computed value is not finite or breaks the law it must obey; nothing is stored."""
+
+
+class FileFormatError(NacreousError):
+    """A file cannot be read, or a table cannot be written in the format asked for."""

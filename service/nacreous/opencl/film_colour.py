@@ -1,0 +1,68 @@
+"""Linear colour of a film over thickness scale and angle, integrated on the device: kernels/film_colour.cl."""
+
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.opencl.budget import require
+from nacreous.opencl.device import Device
+from nacreous.opencl.film_problem import FilmProblem, film_buffers, upload
+from nacreous.opencl.precision import Precision
+from nacreous.opencl.program import Build, kernel_of
+from nacreous.opencl.tiles import Observer, row_tiles, run_tile
+
+__all__ = ["Side", "film_colour"]
+
+_GROUPS = {"cpu": (4,), "gpu": (64,), "other": (1,)}
+
+
+class Side(Enum):
+    """Whose colour: the reflected or the transmitted light's. The value is the kernel's TRANSMISSION."""
+
+    REFLECTION = 0
+    TRANSMISSION = 1
+
+
+def film_colour(
+    device: Device,
+    problem: FilmProblem,
+    colour_weights: NDArray[np.float64],
+    side: Side,
+    precision: Precision,
+    *,
+    observer: Observer | None = None,
+    lanes: int | None = None,
+) -> NDArray[np.floating]:
+    """Sum of the unpolarised R or T times three weights a wavelength, shape (S, A, 3).
+
+    Parameters
+    ----------
+    colour_weights : float array, shape (3, L)
+        Weights of the three components at the problem's wavelengths, see `nacreous.optics.colour`.
+
+    Raises
+    ------
+    BudgetError
+        The result is larger than the byte budget; nothing is allocated.
+    """
+    item = np.dtype(precision.dtype).itemsize
+    require(f"a colour table of {' x '.join(map(str, problem.shape[:2]))} texels", problem.rows * 3 * item)
+    lanes = lanes or device.lanes(precision)
+    numbers = (("INCOHERENT", int(problem.incoherent)), ("TRANSMISSION", side.value))
+    kernel = kernel_of(device, Build("film_colour", precision, lanes, numbers))
+    buffers = film_buffers(device, problem, precision, lanes)
+    padding = buffers.stride - colour_weights.shape[1]
+    weights = upload(device, np.pad(colour_weights, ((0, 0), (0, padding))), precision.dtype)
+    colour = np.empty((problem.rows, 3), precision.dtype)
+    for tile in row_tiles(problem.rows, problem.layer_evaluations_a_row, 3 * item, observer):
+        (values,) = run_tile(
+            device,
+            kernel,
+            (*buffers.arguments, np.int32(tile.origin), weights),
+            (tile.rows,),
+            _GROUPS[device.info.kind],
+            [((tile.rows, 3), precision.dtype)],
+        )
+        colour[tile.origin : tile.origin + tile.rows] = values
+    return colour.reshape(*problem.shape[:2], 3)

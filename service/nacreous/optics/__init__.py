@@ -1,0 +1,1 @@
+"""Optical values in plain NumPy: materials, stacks and colour. No OpenCL."""

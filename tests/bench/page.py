@@ -1,0 +1,128 @@
+"""The page of results, in Markdown."""
+
+import os
+import platform
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from bench.roofline import Roofline
+from bench.stack import BenchStack
+from bench.timing import Measurement, Missing
+
+PACKAGES = ("numpy", "jax", "torch", "tmm", "tmm-fast", "tmm-faster", "pocl-binary-distribution", "pyopencl")
+
+
+TEMPLATE = """\
+# Benchmarks
+
+Written by `make bench`; every number comes from the same run on the same machine.
+
+## A film table
+
+{work}
+
+| | million layer evaluations a second | Nacreous is faster by | largest error |
+|---|--:|--:|--:|
+{rows}
+
+Medians of several runs, from arrays in host memory to arrays in host memory, both polarisations together.
+Every program is checked before it is timed; its error is the largest difference of R or T from the
+double-precision reference of the tests. The slow programs do a part of the samples.
+
+## Roofline
+
+Measured on {device}:
+
+| | limit | the film kernel | share |
+|---|--:|--:|--:|
+{shares}
+
+The kernel's {flop:.0f} flop a layer evaluation are counted in its source: a root, a reciprocal or a
+polynomial as the multiplications and additions it takes.
+
+## Machine
+
+{machine}.
+"""
+
+
+def render(
+    ours: Measurement,
+    others: Sequence[Measurement | Missing],
+    roofline: Roofline,
+    *,
+    stack: BenchStack,
+    flop_per_layer_evaluation: float,
+) -> str:
+    """Write the page: the table of programs, our share of the roofline, the machine."""
+    return TEMPLATE.format(
+        work=_work(stack),
+        rows="\n".join([*(_row(other, ours) for other in others), _own_row(ours)]),
+        device=roofline.device,
+        shares=_shares(ours, roofline, stack, flop_per_layer_evaluation),
+        flop=flop_per_layer_evaluation,
+        machine=f"{_processor()}, {os.cpu_count()} cores; Python {platform.python_version()}; {_versions()}",
+    )
+
+
+def _work(stack: BenchStack) -> str:
+    absorbing = int((stack.index[1:-1].imag > 0).any(axis=1).sum())
+    return (
+        f"R and T for s and p of {len(stack.thickness_nm)} dispersive layers, {absorbing} of them absorbing, "
+        f"at {len(stack.wavelength_nm)} wavelengths and {len(stack.cos_theta)} angles."
+    )
+
+
+def _row(other: Measurement | Missing, ours: Measurement) -> str:
+    if isinstance(other, Missing):
+        return f"| {other.name} | {other.reason} | | |"
+    ratio = ours.layer_evaluations_per_second / other.layer_evaluations_per_second
+    return f"| {other.name} | {_millions(other)} | {_two_digits(ratio)} x | {other.largest_error:.1e} |"
+
+
+def _own_row(ours: Measurement) -> str:
+    return f"| **{ours.name}** | **{_millions(ours)}** | | **{ours.largest_error:.1e}** |"
+
+
+def _shares(ours: Measurement, roofline: Roofline, stack: BenchStack, flop: float) -> str:
+    rate = ours.layer_evaluations_per_second
+    written = 4 * 4 * rate / len(stack.thickness_nm)  # four float32 tables, one value a sample
+    return "\n".join(
+        [
+            _share("multiply-adds", "GFLOP/s", roofline.flop_per_second, flop * rate),
+            _share("memory", "GB/s", roofline.copied_bytes_per_second, written),
+        ]
+    )
+
+
+def _share(name: str, unit: str, limit: float, used: float) -> str:
+    return f"| {name} | {limit / 1e9:.0f} {unit} | {used / 1e9:.1f} {unit} | {used / limit:.0%} |"
+
+
+def _millions(measurement: Measurement) -> str:
+    return _two_digits(measurement.layer_evaluations_per_second / 1e6)
+
+
+def _two_digits(value: float) -> str:
+    """Two significant digits below a hundred, whole numbers above: the noise of the machine is larger."""
+    return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
+
+
+def _processor() -> str:
+    """Name of the processor, from Linux where it says so."""
+    cpuinfo = Path("/proc/cpuinfo")
+    lines = cpuinfo.read_text().splitlines() if cpuinfo.exists() else []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
+def _versions() -> str:
+    return ", ".join(f"{name} {found}" for name in PACKAGES if (found := _version(name)))
+
+
+def _version(name: str) -> str | None:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None

@@ -1,0 +1,122 @@
+"""Axes: the numbers behind a count, a range and a list, and what is none of them."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import TypeAdapter, ValidationError
+
+from nacreous.tables import axes
+
+WAVELENGTH: TypeAdapter[Any] = TypeAdapter(axes.WavelengthAxis)
+COS_THETA: TypeAdapter[Any] = TypeAdapter(axes.CosThetaAxis)
+SCALE: TypeAdapter[Any] = TypeAdapter(axes.ThicknessScaleAxis)
+
+
+def wavelengths(axis: object) -> list[float]:
+    """Return the values of a wavelength axis as a spec writes it."""
+    return axes.wavelength_values_nm(WAVELENGTH.validate_python(axis)).tolist()
+
+
+def test_a_range_by_step_includes_its_stop() -> None:
+    """350 to 750 nm by 5 nm are 81 wavelengths, as in the paper."""
+    values = wavelengths({"start": 350, "stop": 750, "step": 5})
+    assert values == [350.0 + 5 * i for i in range(81)]
+
+
+@pytest.mark.parametrize(("step", "points"), [(0.1, 4001), (0.3, 1334), (1 / 3, 1201), (7, 58)])
+def test_a_range_never_passes_its_stop(step: float, points: int) -> None:
+    """Steps that do not fit end before the stop; steps that fit, but for rounding, end on it."""
+    values = wavelengths({"start": 350, "stop": 750, "step": step})
+    assert len(values) == points
+    assert 750 - step < values[-1] <= 750
+    np.testing.assert_allclose(np.diff(values), step, rtol=1e-9)
+
+
+def test_a_range_by_count_has_both_ends() -> None:
+    """Three points from 400 to 700 nm."""
+    assert wavelengths({"start": 400, "stop": 700, "count": 3}) == [400.0, 550.0, 700.0]
+
+
+def test_a_list_is_itself() -> None:
+    """Integers and reals alike, in double precision."""
+    assert wavelengths([400, 550.5, 700]) == [400.0, 550.5, 700.0]
+
+
+def test_a_count_spans_all_angles() -> None:
+    """From grazing to normal incidence."""
+    values = axes.cos_theta_values(COS_THETA.validate_python(5))
+    assert values.tolist() == [0.0, 0.25, 0.5, 0.75, 1.0]
+
+
+def test_one_thickness_is_the_thickness_itself() -> None:
+    """The default axis holds the factor 1."""
+    assert axes.thickness_scale_values(SCALE.validate_python(1)).tolist() == [1.0]
+    assert axes.thickness_scale_values(SCALE.validate_python([0.5, 2])).tolist() == [0.5, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("adapter", "wrong", "message"),
+    [
+        (WAVELENGTH, [], "at least 2"),
+        (WAVELENGTH, [500], "at least 2"),
+        (WAVELENGTH, [500, 400], "ascending"),
+        (WAVELENGTH, [400, 400], "ascending"),
+        (WAVELENGTH, [99, 400], "100 to 100000"),
+        (WAVELENGTH, [400, 100_001], "100 to 100000"),
+        (WAVELENGTH, [400, float("nan")], "finite"),
+        (WAVELENGTH, [400, True], "number"),
+        (WAVELENGTH, 81, "a list"),
+        (WAVELENGTH, "350-750", "a list"),
+        (WAVELENGTH, None, "a list"),
+        (WAVELENGTH, {400, 500}, "a list"),
+        (WAVELENGTH, {"start": 400, "stop": 700}, "either step or count, got neither"),
+        (WAVELENGTH, {"start": 400, "stop": 700, "step": 1, "count": 5}, "got both"),
+        (WAVELENGTH, {"start": 400, "stop": 400, "step": 1}, "more than start"),
+        (WAVELENGTH, {"start": 400, "stop": 700, "step": 0}, "greater than 0"),
+        (WAVELENGTH, {"start": 400, "stop": 700, "step": 301}, "2 to 65,536 points, got 1"),
+        (WAVELENGTH, {"start": 400, "stop": 700, "step": 1e-9}, "2 to 65,536 points"),
+        (WAVELENGTH, {"start": -1e308, "stop": 1e308, "step": 1}, "2 to 65,536 points"),
+        (WAVELENGTH, {"start": -1e308, "stop": 1e308, "count": 5}, "100 to 100000"),
+        (WAVELENGTH, {"start": 400, "stop": 400.0000000000001, "count": 9}, "ascending"),
+        (WAVELENGTH, {"start": 400, "stop": 700, "count": 1}, "greater than or equal to 2"),
+        (WAVELENGTH, {"start": 400, "stop": 700, "count": 65_537}, "less than or equal to 65536"),
+        (WAVELENGTH, {"start": 400, "stop": 700, "steps": 5}, "start, stop, step, count"),
+        (COS_THETA, 1, "greater than or equal to 2"),
+        (COS_THETA, 65_537, "less than or equal to 65536"),
+        (COS_THETA, 64.0, "a count"),
+        (COS_THETA, True, "a count"),
+        (COS_THETA, [0, 1.0000001], "0 to 1"),
+        (COS_THETA, [-0.1, 1], "0 to 1"),
+        (COS_THETA, {"start": 0, "stop": 2, "count": 5}, "0 to 1"),
+        (SCALE, 0, "1"),
+        (SCALE, 2, "1"),
+        (SCALE, True, "1, a list"),
+        (SCALE, [0, 1], "1e-06 to 100"),
+        (SCALE, [1, 100.1], "1e-06 to 100"),
+    ],
+    ids=str,
+)
+def test_what_is_no_axis_is_refused(adapter: TypeAdapter[Any], wrong: object, message: str) -> None:
+    """Each in its own words, before anything is allocated."""
+    with pytest.raises(ValidationError) as caught:
+        adapter.validate_python(wrong)
+    assert message in str([(error["msg"], error.get("ctx")) for error in caught.value.errors()])
+
+
+@given(start=st.floats(100, 9e4), length=st.floats(1e-3, 1e4), count=st.integers(2, 500))
+def test_every_accepted_range_ascends(start: float, length: float, count: int) -> None:
+    """Whatever was accepted has as many points as it says, from start to stop, strictly ascending."""
+    values = np.array(wavelengths({"start": start, "stop": start + length, "count": count}))
+    assert values.size == count
+    assert (np.diff(values) > 0).all()
+    assert (values[0], values[-1]) == (start, start + length)
+
+
+@pytest.mark.parametrize("axis", [64, [0.0, 0.5, 1.0], {"start": 0.1, "stop": 1, "step": 0.1}])
+def test_an_axis_survives_json(axis: object) -> None:
+    """Written out and read again it is the same axis."""
+    read = COS_THETA.validate_python(axis)
+    assert COS_THETA.validate_json(COS_THETA.dump_json(read)) == read

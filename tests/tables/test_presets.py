@@ -1,0 +1,125 @@
+"""Presets: complete, cited, computable, and right where a textbook says what they must show."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tmm
+
+from nacreous.errors import SpecError
+from nacreous.optics.stack import sample_stack
+from nacreous.tables.axes import cos_theta_values, thickness_scale_values, wavelength_values_nm
+from nacreous.tables.presets import load, preset, preset_names
+from nacreous.tables.spec import Spec
+
+PROMISED = [
+    "soap-bubble", "oil-on-water", "anodised-titanium", "tempered-steel", "coated-lens", "dichroic",
+    "silica-on-silicon", "beetle", "nacre", "morpho", "paper/figure-3", "paper/figure-4", "paper/figure-5",
+    "paper/figure-8",
+]  # fmt: skip
+
+
+def reflectance(name: str, wavelength_nm: np.ndarray, thickness_scale: float = 1.0) -> np.ndarray:
+    """R at normal incidence by tmm (Byrnes 2016), with groups written out."""
+    sampled = sample_stack(preset(name).stack, wavelength_nm)
+    order = list(range(sampled.thickness_nm.size))
+    for group in reversed(sampled.groups):
+        order[group.first : group.stop] = order[group.first : group.stop] * group.repeat
+    thickness_nm = [np.inf, *(sampled.thickness_nm[order] * thickness_scale), np.inf]
+    rows = [0, *(position + 1 for position in order), -1]
+    spectrum = zip(sampled.index[rows].T, wavelength_nm, strict=True)
+    return np.array([tmm.coh_tmm("s", list(n), thickness_nm, 0, nm)["R"] for n, nm in spectrum])
+
+
+def test_every_promised_preset_is_there() -> None:
+    """The list that the documentation promises."""
+    assert set(PROMISED) <= set(preset_names())
+
+
+@pytest.mark.parametrize("name", preset_names())
+def test_a_preset_is_complete(name: str) -> None:
+    """It has a name, a description and a source, and all of its materials reach all of its wavelengths."""
+    spec = preset(name)
+    assert min(len(spec.name), len(spec.description), len(spec.source)) > 3
+    wavelength_nm = wavelength_values_nm(spec.table.wavelength_nm)
+    assert np.isfinite(sample_stack(spec.stack, wavelength_nm).index).all()
+    assert 64 <= cos_theta_values(spec.table.cos_theta).size <= 256
+    assert thickness_scale_values(spec.table.thickness_scale).size <= 256
+    assert Spec.model_validate_json(spec.model_dump_json()) == spec
+
+
+@pytest.mark.parametrize(
+    ("name", "scale", "peak_nm"),
+    [
+        ("paper/figure-8", 0.8, 403),
+        ("paper/figure-8", 1.0, 504),
+        ("paper/figure-8", 1.2, 605),
+        ("paper/figure-8", 1.35, 681),
+        ("dichroic", 1.0, 550),
+        ("beetle", 1.0, 530),
+        ("morpho", 1.0, 454),
+    ],
+)
+def test_a_reflector_peaks_where_its_source_says(name: str, scale: float, peak_nm: float) -> None:
+    """Figure 8 by the analysis in the design; the dichroic by design; the beetle as Stavenga et al. 2011 measured."""
+    wavelength_nm = np.arange(380.0, 750.0, 1.0)
+    found = wavelength_nm[reflectance(name, wavelength_nm, scale).argmax()]
+    assert found == pytest.approx(peak_nm, abs=12)
+
+
+def test_figure_3_spans_the_quarter_and_half_wave_limits() -> None:
+    """Born and Wolf, section 1.6.4: R runs from the bare glass, 0.04, to ((n0 ns - n1²)/(n0 ns + n1²))² = 0.2066."""
+    found = reflectance("paper/figure-3", np.arange(350.0, 750.5, 0.5))
+    assert found.min() == pytest.approx(0.04, abs=1e-4)
+    assert found.max() == pytest.approx(((1.5 - 4) / (1.5 + 4)) ** 2, abs=1e-4)
+
+
+def test_a_coated_lens_reflects_least_in_the_green() -> None:
+    """Macleod, chapter 4: a quarter wave of magnesium fluoride leaves 1.2 to 1.4 % at its wavelength."""
+    wavelength_nm = np.arange(380.0, 750.0, 2.0)
+    found = reflectance("coated-lens", wavelength_nm)
+    assert wavelength_nm[found.argmin()] == pytest.approx(550, abs=10)
+    assert 0.012 < found.min() < 0.014
+
+
+def test_a_soap_film_is_black_where_it_is_thinnest() -> None:
+    """Newton's black film: far below a wavelength both reflections cancel."""
+    visible_nm = np.arange(400.0, 701.0, 50.0)
+    assert reflectance("soap-bubble", visible_nm, 0.01).max() < 0.005
+
+
+def test_overrides_reach_a_preset() -> None:
+    """As `--set` does on the command line."""
+    assert preset("paper/figure-3", ["table.cos_theta=99"]).table.cos_theta == 99
+
+
+@pytest.mark.parametrize(
+    "name", ["paper/figure3", "soap-buble", "nacre.toml", "../optics/library", "", "x" * 9999, "a\0"]
+)
+def test_an_unknown_preset_is_refused(name: str) -> None:
+    """A preset is a name on the list, never a path."""
+    with pytest.raises(SpecError, match="preset"):
+        preset(name)
+
+
+def test_a_slip_of_the_keyboard_finds_the_closest() -> None:
+    """The remedy is in the message."""
+    with pytest.raises(SpecError, match="did you mean soap-bubble"):
+        load("soap-buble")
+
+
+def test_load_takes_a_file_or_a_preset(tmp_path: Path) -> None:
+    """A suffix makes it a file; without one a preset comes first, then a file of that name."""
+    text = 'name = "mine"\n[stack]\nincident = "air"\nsubstrate = "bk7"\nlayers = [{ material = "water", thickness_nm = 1 }]\n'
+    for file in (tmp_path / "film.toml", tmp_path / "film"):
+        file.write_text(text, encoding="utf-8")
+        assert load(str(file)).name == load(file).name == "mine"
+    assert load("morpho") == preset("morpho")
+    assert load("morpho", ["name=other"]).name == "other"
+
+
+@pytest.mark.parametrize("name", ["missing.toml", "missing.json", "a\0.toml"])
+def test_a_missing_file_is_told(name: str) -> None:
+    """What looks like a file is not looked for among the presets."""
+    with pytest.raises(SpecError, match="file"):
+        load(name)

