@@ -110,7 +110,7 @@ def film(
         Arrays of shape (A, L). At cos_theta = 0 the limit R = 1, T = 0.
     """
     media = _media(index, thickness_nm, wavelength_nm, cos_theta)
-    whole = _at_grazing_incidence(_coherent(media, 0, len(media.n) - 1, groups), cos_theta)
+    whole = _coherent(media, 0, len(media.n) - 1, groups)
     R, T = np.abs(whole.r) ** 2, _transmitted_flux(whole.t, media, 0, -1)
     amplitudes = [a.astype(np.complex128) for a in (*whole.r, *whole.t)]
     return Film(*amplitudes, *(i.astype(np.float64) for i in (*R, *T)))
@@ -137,8 +137,6 @@ def incoherent_film(
     steps = []
     for front, back in itertools.pairwise(edges):
         amplitudes = _coherent(media, front, back, groups)
-        if front == 0:
-            amplitudes = _at_grazing_incidence(amplitudes, cos_theta)
         steps += [_intensities(amplitudes, media, front, back), _attenuation(media, back)]
     whole = reduce(_compose, steps)
     return Intensities(*(i.astype(np.float64) for i in (*whole.r, *whole.t)))
@@ -192,11 +190,10 @@ def _media(
     n = np.asarray(index, np.clongdouble)
     n = (n[:, None, None] if n.ndim == 1 else n[:, None, :]) + np.zeros_like(wavelength)  # (M+2, 1, L)
     beta = n[0] * np.sqrt((1 - mu) * (1 + mu))  # (A, L)
-    kz = np.sqrt((n - beta) * (n + beta))  # (M+2, A, L)
-    kz = np.where(kz.imag < 0, -kz, kz)  # waves decay inwards
+    kz = np.sqrt((n - beta) * (n + beta))  # (M+2, A, L); k >= 0 makes Im kz >= 0: waves decay inwards
     # A layer exactly at its critical angle: R and T are even in its kz, so this step away costs about 1e-13.
     kz[1:-1] = np.where(kz[1:-1] == 0, np.longdouble(1e-7), kz[1:-1])
-    kz[0] = n[0] * mu  # never through the square root: exact, and zero at grazing incidence
+    kz[0] = n[0] * mu  # exact: zero at grazing incidence, where equation 10 then gives r = -1 and t = 0
     d = np.concatenate([[0], np.atleast_1d(np.asarray(thickness_nm, np.longdouble)), [0]])[:, None, None]
     two_pi = 8 * np.arctan(np.longdouble(1))  # the double is wrong by 1e-16 of a phase that can be 1e5
     return Media(n, kz / n, two_pi * d * kz / wavelength)
@@ -297,9 +294,3 @@ def _flux(media: Media, j: int) -> NDArray[np.floating]:
     """Flux of a unit electric field in medium `j`: Re(n cos) for s, Re(n cos*) for p (Byrnes, section 4)."""
     cos = media.cos_theta[j]
     return np.stack([(media.n[j] * cos).real, (media.n[j] * cos.conj()).real])  # (2, A, L)
-
-
-def _at_grazing_incidence(whole: Scatterer, cos_theta: ArrayLike) -> Scatterer:
-    """Give cos_theta = 0 its limit r = -1, t = 0, which holds even where a layer's index equals n_0."""
-    grazing = (np.atleast_1d(np.asarray(cos_theta)) == 0)[:, None]  # (A, 1)
-    return whole._replace(r=np.where(grazing, -1, whole.r), t=np.where(grazing, 0, whole.t))

@@ -96,8 +96,10 @@ def test_a_layer_at_its_critical_angle() -> None:
 
 
 def test_kz_of_exactly_zero_is_the_limit_of_its_neighbours() -> None:
-    """Reflectance is continuous through a critical angle; index 1 in 1.25 at mu = 0.6 has kz = 0 exactly."""
-    at, near = film([1.25, 1.0, 1.5], [300], 550, 0.6), film([1.25, 1.0 + 1e-11, 1.5], [300], 550, 0.6)
+    """Reflectance is continuous through a critical angle, where n_1 = beta."""
+    mu = np.longdouble(0.6)
+    beta = 1.25 * np.sqrt((1 - mu) * (1 + mu))
+    at, near = (film(np.array([1.25, n, 1.5]), [300], 550, mu) for n in (beta, beta + 1e-11))
     assert at.R_s.item() == pytest.approx(near.R_s.item(), abs=1e-9)
     assert at.T_p.item() == pytest.approx(near.T_p.item(), abs=1e-9)
 

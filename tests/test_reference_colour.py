@@ -48,3 +48,22 @@ def test_colour_science_agrees_on_srgb() -> None:
         xyz = colour.sd_to_XYZ(spectrum, illuminant=colour.SDS_ILLUMINANTS["D65"]) / 100
     expected = colour.XYZ_to_sRGB(xyz, apply_cctf_encoding=False)
     assert linear_rgb(reflectance) == pytest.approx(expected, abs=2e-4)
+
+
+def test_adaptation_from_incandescent_light_is_bradfords() -> None:
+    """Lindbloom, "Chromatic Adaptation", lists the Bradford matrix from illuminant A to D65."""
+    import colour
+
+    bradford = np.array(
+        [
+            [0.8446965, -0.1179225, 0.3948108],
+            [-0.1366303, 1.1041226, 0.1291718],
+            [0.0798489, -0.1348999, 3.1924009],
+        ]
+    )
+    reflectance = np.exp(-(((WAVELENGTH_NM - 500) / 60) ** 2))
+    spectrum = colour.SpectralDistribution(reflectance, WAVELENGTH_NM)
+    with pytest.warns(colour.utilities.ColourRuntimeWarning, match="Aligning"):
+        xyz = colour.sd_to_XYZ(spectrum, illuminant=colour.SDS_ILLUMINANTS["A"]) / 100
+    expected = colour.RGB_COLOURSPACES["ITU-R BT.709"].matrix_XYZ_to_RGB @ bradford @ xyz
+    assert linear_rgb(reflectance, illuminant="A") == pytest.approx(expected, abs=1e-3)

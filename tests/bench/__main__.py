@@ -33,7 +33,7 @@ def main() -> None:
 def _measured(witness: Witness, stack: BenchStack) -> Measurement:
     sys.stderr.write(f"{witness.name} ...\n")
     part = stack.thinned(witness.angle_step, witness.wavelength_step)
-    return measure(witness.name, witness.make(), part)
+    return measure(witness.name, witness.make(), part, witness.runs)
 
 
 def _measured_if_installed(witness: Witness, stack: BenchStack) -> Measurement | Missing:

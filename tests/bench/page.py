@@ -28,7 +28,7 @@ Written by `make bench`; every number comes from the same run on the same machin
 
 Medians of several runs, from arrays in host memory to arrays in host memory, both polarisations together.
 Every program is checked before it is timed; its error is the largest difference of R or T from the
-double-precision reference of the tests. The slow programs do a part of the samples.
+double-precision reference of the tests. Scalar tmm does a part of the samples.
 
 ## Roofline
 

@@ -35,8 +35,8 @@ def bench_stack() -> BenchStack:
     """Ten dispersive layers, four of them absorbing, at 400 wavelengths and 1024 angles.
 
     Air; twice (low index, high index, thin metal, lower index, weakly absorbing oxide), of different
-    thicknesses so that nothing repeats; glass. A Cauchy term makes every layer dispersive. Index, wavelength and
-    cosine are exact in single precision, so that the error of a program is its arithmetic's alone.
+    thicknesses so that nothing repeats; glass. A Cauchy term makes every layer dispersive. Index, wavelength
+    and cosine are exact in single precision, so that the error of a program is its arithmetic's alone.
     """
     wavelength_nm = np.linspace(380, 780, 400)
     n = np.array([1.46, 2.35, 0.15, 1.38, 2.1] * 2)[:, None]

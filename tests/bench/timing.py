@@ -34,7 +34,7 @@ class Missing:
     reason: str
 
 
-def measure(name: str, solve: Solver, stack: BenchStack, runs: int = 7) -> Measurement:
+def measure(name: str, solve: Solver, stack: BenchStack, runs: int) -> Measurement:
     """Check `solve` against the double-precision reference, then time it: the median of several runs.
 
     The check is the warm-up: compilers have compiled and caches are filled when the clock starts.

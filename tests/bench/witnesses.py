@@ -26,22 +26,23 @@ BLOCK_ROWS = 32
 class Witness:
     """A program, how to get hold of it, and how much of the work it is given.
 
-    The slow ones do one angle in `angle_step` and one wavelength in `wavelength_step`; rates are per layer
-    evaluation. That is no disadvantage: their cost per sample is constant or grows with the size.
+    One angle in `angle_step` and one wavelength in `wavelength_step`: all of them, but for a scalar program,
+    whose cost per sample is the same for any number of samples.
     """
 
     name: str
     make: Callable[[], Solver]
     angle_step: int = 1
     wavelength_step: int = 1
+    runs: int = 7
 
 
 def witnesses() -> tuple[Witness, ...]:
     """List all programs, the slowest first."""
     return (
         Witness("tmm (scalar Python)", make_tmm, angle_step=64, wavelength_step=8),
-        Witness("tmm_fast (PyTorch)", make_tmm_fast, angle_step=16),
-        Witness("tmm_faster (C++)", make_tmm_faster, angle_step=4),
+        Witness("tmm_fast (PyTorch)", make_tmm_fast, runs=3),
+        Witness("tmm_faster (C++)", make_tmm_faster, runs=5),
         Witness("NumPy, the kernels' recursion, complex64", make_numpy),
         Witness("JAX jit, the kernels' recursion, complex64", make_jax_complex),
         Witness("JAX jit, the same in real arithmetic", make_jax_real),
@@ -131,8 +132,8 @@ def make_jax_real() -> Solver:
 def _in_blocks(film: Callable[[NDArray[np.float32]], Tables], stack: BenchStack) -> Intensities:
     """Run `film` on blocks of angles that fit the caches, one thread a core.
 
-    For NumPy and JAX alike this was the fastest of what was tried: whole tables with XLA's own threads, lax.map
-    over blocks, and a program sharded over two devices were slower.
+    For NumPy and JAX alike this was the fastest of what was tried: whole tables with XLA's own threads,
+    lax.map over blocks, and a program sharded over two devices were slower.
     """
     mu = stack.cos_theta.astype(np.float32)[:, None]
     blocks = np.split(mu, range(BLOCK_ROWS, len(mu), BLOCK_ROWS))

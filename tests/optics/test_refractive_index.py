@@ -81,10 +81,10 @@ def test_hold_repeats_the_end_of_the_data(name: str) -> None:
 
 
 def test_the_end_of_a_range_belongs_to_it() -> None:
-    """187.9 nm written as 0.1879 um and back is still inside."""
-    assert np.isfinite(
-        index({**TABLE, "wavelength_nm": [400, 0.5 * 1000.0000000001]}, 500.0000000000001)
-    ).all()
+    """Rounding in a conversion of units does not put a wavelength outside; a picometre does."""
+    assert index(TABLE, 500 * (1 + 1e-10))[0] == pytest.approx(1.7 + 0.2j)
+    with pytest.raises(SpecError):
+        index(TABLE, 500.001)
 
 
 @pytest.mark.parametrize(

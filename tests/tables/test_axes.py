@@ -35,6 +35,13 @@ def test_a_range_never_passes_its_stop(step: float, points: int) -> None:
     np.testing.assert_allclose(np.diff(values), step, rtol=1e-9)
 
 
+def test_a_step_that_is_not_exact_in_binary_still_fits() -> None:
+    """0.3 / 0.1 is a little less than 3 in double precision: the stop is a point all the same."""
+    values = axes.cos_theta_values(COS_THETA.validate_python({"start": 0, "stop": 0.3, "step": 0.1}))
+    assert values.size == 4
+    assert values[-1] == 0.3
+
+
 def test_a_range_by_count_has_both_ends() -> None:
     """Three points from 400 to 700 nm."""
     assert wavelengths({"start": 400, "stop": 700, "count": 3}) == [400.0, 550.0, 700.0]

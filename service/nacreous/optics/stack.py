@@ -31,7 +31,7 @@ class Layer(StrictModel):
     thickness_nm : float
         0, for a layer that is absent, or 1e-6 to 1e8.
     thickness_sigma_nm : float
-        Standard deviation of the thickness over the surface, at most a third of it; R and T are averaged.
+        Standard deviation of the thickness over the surface, at most a fifth of it; R and T are averaged.
     coherent : bool
         False for a thick layer across which intensities are added instead of amplitudes.
     """
@@ -51,9 +51,9 @@ class Layer(StrictModel):
 
     @model_validator(mode="after")
     def _check_spread(self) -> Self:
-        # Three deviations below the mean the layer must still have a thickness.
-        if self.thickness_sigma_nm > self.thickness_nm / 3:
-            expected = f"at most a third of thickness_nm, {self.thickness_nm / 3:g}"
+        # Five deviations below the mean the layer must still have a thickness.
+        if self.thickness_sigma_nm > self.thickness_nm / 5:
+            expected = f"at most a fifth of thickness_nm, {self.thickness_nm / 5:g}"
             raise refusal(expected, f"{self.thickness_sigma_nm:g}", field="thickness_sigma_nm")
         if self.thickness_sigma_nm and not self.coherent:
             remedy = "an incoherent layer has no fringes to average: leave thickness_sigma_nm out"

@@ -13,6 +13,7 @@ from pydantic import (
     BaseModel,
     BeforeValidator,
     ConfigDict,
+    Field,
     ValidatorFunctionWrapHandler,
     model_validator,
 )
@@ -99,8 +100,8 @@ def _unsigned_zero(value: float) -> float:
     return value + 0.0  # -0.0 and 0.0 are the same number: let them be the same bytes
 
 
-Number = Annotated[float, AfterValidator(_unsigned_zero)]
-"""A finite real number; there is one zero."""
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False), AfterValidator(_unsigned_zero)]
+"""A finite real number, or an integer in its place; there is one zero."""
 
 
 class StrictModel(BaseModel):

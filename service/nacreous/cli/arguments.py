@@ -1,0 +1,25 @@
+"""Arguments and options that several commands share, each written once."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from nacreous.formats.names import FormatName
+
+__all__ = ["AsJson", "Assignments", "Formats", "OutputFolder", "SpecOrPreset"]
+
+SpecOrPreset = Annotated[
+    str, typer.Argument(metavar="SPEC|PRESET", help="A .toml or .json file, or a name of `nacreous presets`.")
+]
+Assignments = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="FIELD=VALUE", help="Change a field of the spec: table.cos_theta=256."),
+]
+Formats = Annotated[
+    list[FormatName] | None, typer.Option("--format", help="Format to write; may be given again.")
+]
+OutputFolder = Annotated[
+    Path, typer.Option("--output", "-o", metavar="DIR", help="Folder to write to; made if absent.")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object a line, and nothing else.")]

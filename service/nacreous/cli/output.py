@@ -1,0 +1,35 @@
+"""Where a command writes: checked before anything is computed, made when there is something to write."""
+
+import os
+from pathlib import Path
+
+from nacreous.errors import SpecError
+from nacreous.optics.value import shown
+
+__all__ = ["check_folder", "file_stem"]
+
+
+def check_folder(folder: Path) -> None:
+    """Refuse a folder in which no file could be written; raises `SpecError`."""
+    try:
+        existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
+        usable = existing.is_dir() and os.access(existing, os.W_OK | os.X_OK)
+    except (OSError, ValueError) as error:  # too long a name, or one with a NUL character
+        reason = getattr(error, "strerror", None) or str(error)
+        raise SpecError("--output", "a folder that can be written", reason) from None
+    if not usable:
+        what = "cannot be written" if existing.is_dir() else "is a file"
+        raise SpecError("--output", "a folder that can be written", f"{shown(str(existing))}, which {what}")
+
+
+def file_stem(spec_or_preset: str) -> str:
+    """Return the name, without a suffix, of a spec's files.
+
+    >>> file_stem("paper/figure-3"), file_stem("specs/film.toml")
+    ('paper-figure-3', 'film')
+    """
+    from nacreous.tables.presets import preset_names
+
+    if spec_or_preset in preset_names():
+        return spec_or_preset.replace("/", "-")
+    return Path(spec_or_preset).stem

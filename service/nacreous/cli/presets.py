@@ -1,0 +1,35 @@
+"""``nacreous presets``: the specs that come with Nacreous."""
+
+from typing import Annotated
+
+import typer
+
+from nacreous.cli.arguments import AsJson
+
+__all__ = ["presets"]
+
+
+def presets(
+    name: Annotated[str | None, typer.Argument(help="Print this preset's spec, as TOML.")] = None,
+    *,
+    as_json: AsJson = False,
+) -> None:
+    """List the presets, or print one to begin a spec of your own with."""
+    from nacreous.cli.listing import print_columns, print_json_lines
+    from nacreous.tables.presets import preset, preset_names
+
+    if name is not None:
+        print(preset(name).model_dump_json() if as_json else _text(name))
+        return
+    rows = [{"name": known, "description": preset(known).description} for known in preset_names()]
+    (print_json_lines if as_json else print_columns)(rows)
+
+
+def _text(name: str) -> str:
+    """Return a preset as it was written, with its comments; raises `SpecError` where there is none."""
+    from importlib.resources import files
+
+    from nacreous.tables.presets import preset
+
+    preset(name)
+    return files("nacreous.optics").joinpath("presets", f"{name}.toml").read_text(encoding="utf-8").rstrip()

@@ -1,0 +1,34 @@
+"""``nacreous preview``: a picture of what a film looks like."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from nacreous.cli.arguments import Assignments, SpecOrPreset
+
+__all__ = ["preview"]
+
+
+def preview(
+    spec: SpecOrPreset,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FILE.png", help="Picture to write.")
+    ] = None,
+    assignments: Assignments = None,
+) -> None:
+    """Draw a film: swatch over angle and thickness, spectra, and the path of its colour."""
+    from nacreous.cli.output import check_folder, file_stem
+    from nacreous.cli.preview_figure import draw
+    from nacreous.cli.preview_tables import preview_tables
+    from nacreous.cli.progress import progress
+    from nacreous.tables.presets import load
+
+    picture = output or Path(f"{file_stem(spec)}.preview.png")
+    check_folder(picture.parent)
+    film = load(spec, assignments or ())
+    with progress("tabulating") as observer:
+        tables = preview_tables(film, observer)
+    picture.parent.mkdir(parents=True, exist_ok=True)
+    draw(tables, picture)
+    print(picture)

@@ -1,0 +1,12 @@
+"""``nacreous schema``: the JSON Schema of a spec."""
+
+import json
+
+__all__ = ["schema"]
+
+
+def schema() -> None:
+    """Print the JSON Schema of a spec, for editors and other programs."""
+    from nacreous.tables.spec import json_schema
+
+    print(json.dumps(json_schema(), indent=2))

@@ -1,0 +1,72 @@
+"""``nacreous tabulate``: from a spec to files."""
+
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from nacreous.cli.arguments import AsJson, Assignments, Formats, OutputFolder, SpecOrPreset
+from nacreous.formats.names import FormatName
+
+if TYPE_CHECKING:
+    from nacreous.formats.registry import Format
+    from nacreous.tables.spec import Spec
+    from nacreous.tables.table import Table
+
+__all__ = ["tabulate"]
+
+
+def tabulate(
+    spec: SpecOrPreset,
+    assignments: Assignments = None,
+    formats: Formats = None,
+    output: OutputFolder = Path(),
+    *,
+    as_json: AsJson = False,
+) -> None:
+    """Compute the table of a spec and write it.
+
+    Prints the path of each file. Files are named after the spec's file or the preset.
+    """
+    from nacreous.cli.output import check_folder, file_stem
+    from nacreous.formats.registry import FORMATS
+    from nacreous.tables.presets import load
+
+    began = perf_counter()
+    check_folder(output)
+    chosen = [FORMATS[name] for name in dict.fromkeys(formats or [FormatName.EXR])]
+    table = _computed(load(spec, assignments or ()), chosen)
+    output.mkdir(parents=True, exist_ok=True)
+    for path, written_as in _written(table, chosen, output / file_stem(spec)):
+        print(_record(table, path, written_as, perf_counter() - began) if as_json else path, flush=True)
+
+
+def _computed(spec: "Spec", formats: "Sequence[Format]") -> "Table":
+    from nacreous.cli.progress import progress
+    from nacreous.formats.registry import parts_of
+    from nacreous.tables.tabulate import tabulate_table
+
+    with progress("tabulating") as observer:
+        return tabulate_table(spec, parts_of(formats), observer=observer)
+
+
+def _written(table: "Table", formats: "Sequence[Format]", stem: Path) -> "Iterator[tuple[Path, Format]]":
+    for chosen in formats:
+        for path in chosen.write(table, stem.with_name(stem.name + chosen.suffix)):
+            yield path, chosen
+
+
+def _record(table: "Table", path: Path, written_as: "Format", seconds: float) -> str:
+    """Return what a program wants to know of a file, as one line of JSON."""
+    from nacreous.formats.verify import file_sha256
+
+    record = {
+        "path": str(path),
+        "format": written_as.name,
+        "id": table.id,
+        "sha256": file_sha256(path),
+        "seconds": round(seconds, 4),
+        "certificate": table.certificate,
+    }
+    return json.dumps(record, allow_nan=False)

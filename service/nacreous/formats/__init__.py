@@ -1,0 +1,1 @@
+"""From a table to a file: one module a format, one registry of them all."""

@@ -1,0 +1,39 @@
+"""What a table's file holds once it is read again."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import NDArray
+
+__all__ = ["PREFIX", "Contents", "labelled", "provenance_of"]
+
+PREFIX = "nacreous:"
+"""Begins the name of every attribute that Nacreous writes, in every format."""
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """Arrays and provenance of one file.
+
+    Parameters
+    ----------
+    arrays : mapping of str to array
+        Every quantity of the file: ``R_s`` … ``T_p``, ``R`` and ``T`` for unpolarised spectra, ``R_rgb`` and
+        ``T_rgb`` for colours.
+    provenance : mapping of str to str
+        ``id``, ``version``, ``spec``, ``certificate`` and the rest, without their prefix.
+    """
+
+    arrays: Mapping[str, NDArray[Any]]
+    provenance: Mapping[str, str]
+
+
+def labelled(provenance: Mapping[str, str]) -> dict[str, str]:
+    """Return `provenance` under the names that files give it, such as ``nacreous:id``."""
+    return {f"{PREFIX}{key}": value for key, value in provenance.items()}
+
+
+def provenance_of(attributes: Iterable[tuple[str, object]]) -> dict[str, str]:
+    """Return what `labelled` wrote, from all the attributes of a file."""
+    return {key.removeprefix(PREFIX): str(value) for key, value in attributes if key.startswith(PREFIX)}

@@ -1,0 +1,59 @@
+"""``exr``: the lookup texture for renderers, RGB in float32.
+
+``film.exr`` holds the linear colour of R, and ``film.transmission.exr`` the colour of T where the substrate
+transmits. `nacreous.formats.lookup` has the axes, `nacreous.formats.openexr` the rules of the file. Colours
+in the CIE's XYZ are stored in channels X, Y and Z; all others in R, G and B, of the space that the attribute
+``nacreous:colour.space`` names.
+
+Load it as data (raw, non-colour), with linear filtering, clamped at the edges and without mip levels. Values
+below 0 and above 1 are colours outside of the space's gamut: they belong to the table.
+
+========================  ==================================================================================
+``nacreous:quantity``     ``R`` or ``T``
+``nacreous:axis.x``       JSON: name, unit, range, count and mapping of the columns
+``nacreous:axis.y``       the same of the rows, from the top
+``nacreous:colour.…``     ``space``, ``illuminant`` and ``observer``
+``nacreous:id``           SHA-256 over everything that decides the values
+``nacreous:spec``         the spec, complete, as JSON
+``nacreous:certificate``  the errors measured between the texels, as JSON
+``nacreous:version``      of Nacreous; ``precision``, ``device`` and ``kernels`` say how it was computed
+========================  ==================================================================================
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from nacreous.errors import FileFormatError
+from nacreous.formats.atomic import replacing
+from nacreous.formats.contents import Contents, provenance_of
+from nacreous.formats.lookup import lookup_attributes, lookup_files, lookup_rows, required
+from nacreous.formats.openexr import read_part, write_part
+from nacreous.tables.table import Table
+
+__all__ = ["SUFFIX", "read", "write"]
+
+SUFFIX = ".exr"
+
+
+def write(table: Table, path: Path) -> tuple[Path, ...]:
+    """Write the colours of `table` and return the files; raises `FileFormatError`."""
+    files = lookup_files(table, path, SUFFIX)
+    names = table.values("channel").tolist()
+    with replacing(*files.values()) as temporaries:
+        for quantity, temporary in zip(files, temporaries, strict=True):
+            rows = lookup_rows(required(table, f"{quantity}_rgb"))  # (H, W, 3)
+            channels = {name: rows[..., channel] for channel, name in enumerate(names)}
+            write_part(temporary, channels, lookup_attributes(table, quantity))
+    return tuple(files.values())
+
+
+def read(path: Path) -> Contents:
+    """Return the colours, (H, W, 3), and the attributes; raises `FileFormatError`."""
+    channels, attributes = read_part(path)
+    names = next((names for names in ("RGB", "XYZ") if set(names) == channels.keys()), None)
+    if names is None:
+        raise FileFormatError(f"expected the channels R, G, B or X, Y, Z, got {', '.join(channels)}")
+    provenance = provenance_of(attributes.items())
+    colours = np.stack([channels[name] for name in names], axis=-1)
+    return Contents({f"{provenance.get('quantity', 'R')}_rgb": colours}, provenance)

@@ -1,0 +1,82 @@
+"""The lookup texture: a table as a picture that a shader reads at (cos_theta, thickness_scale).
+
+x is cos_theta from left to right, y is thickness_scale from the top row down, both ascending. Every texel is a
+sample at the axis's own value, so the first and the last texel *centres* are the ends of the axis: a shader
+reads at u = (x (N - 1) + 0.5) / N. A table of one thickness becomes two equal rows, so that it makes no
+difference whether a renderer counts rows from the top or from the bottom.
+
+Reflection and transmission are two files: an alpha channel would be multiplied into the colours.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.errors import FileFormatError
+from nacreous.formats.contents import labelled
+from nacreous.tables.table import Table
+
+__all__ = ["lookup_attributes", "lookup_files", "lookup_rows", "required"]
+
+_COLOUR_OF = {"R": "R_rgb", "T": "T_rgb"}
+
+
+def lookup_files(table: Table, path: Path, suffix: str) -> dict[str, Path]:
+    """Return the file of each quantity: ``film.exr`` for R, and ``film.transmission.exr`` for T if it is there.
+
+    Raises
+    ------
+    FileFormatError
+        The table holds no colours.
+    """
+    required(table, "R_rgb")
+    stem, end = _split(path.name, suffix)
+    files = {"R": path, "T": path.with_name(f"{stem}.transmission{end}")}
+    return {quantity: files[quantity] for quantity, name in _COLOUR_OF.items() if name in table.variables}
+
+
+def _split(name: str, suffix: str) -> tuple[str, str]:
+    """Split a file's name before `suffix`, or before its own last suffix where it ends otherwise."""
+    length = len(suffix) if name.lower().endswith(suffix) else len(Path(name).suffix)
+    return name[: len(name) - length], name[len(name) - length :]
+
+
+def required(table: Table, name: str) -> NDArray[Any]:
+    """Return the values of a variable; raises `FileFormatError` where the table was computed without it."""
+    if name not in table.variables:
+        raise FileFormatError(
+            f"this format holds {name}, and the table has {', '.join(table.variables)} only"
+        )
+    return table.values(name)
+
+
+def lookup_rows(values: NDArray[Any]) -> NDArray[np.float32]:
+    """Return values over (thickness_scale, cos_theta, …) as float32 rows of texels, (H, W, …), H >= 2."""
+    rows = np.asarray(values, np.float32)
+    return np.repeat(rows, 2, axis=0) if len(rows) == 1 else rows
+
+
+def lookup_attributes(table: Table, quantity: str) -> dict[str, str]:
+    """Return what a picture's file says about itself: provenance, axes and colours."""
+    scale = table.values("thickness_scale")
+    colour = table.spec.colour
+    facts = {
+        "quantity": quantity,
+        "axis.x": _axis("cos_theta", table.values("cos_theta")),
+        "axis.y": _axis("thickness_scale", np.repeat(scale, 2) if len(scale) == 1 else scale),
+        "colour.space": colour.space,
+        "colour.illuminant": colour.illuminant,
+        "colour.observer": colour.observer,
+    }
+    return labelled({**table.provenance, **facts})
+
+
+def _axis(name: str, values: NDArray[np.float64]) -> str:
+    first, last = float(values[0]), float(values[-1])
+    even = np.allclose(values, np.linspace(first, last, len(values)), rtol=0, atol=1e-9 * abs(last))
+    axis: dict[str, Any] = {"name": name, "unit": "1", "range": [first, last], "count": len(values)}
+    mapping = {"mapping": "linear"} if even else {"mapping": "explicit", "values": values.tolist()}
+    return json.dumps(axis | mapping)

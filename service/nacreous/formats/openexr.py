@@ -1,0 +1,61 @@
+"""The rules for every EXR: one scan-line part of float32, ZIP, and no word about primaries.
+
+* One part: Blender 4.5 and 5.2 load files of several parts as size 0.
+* ZIP is exact and read by all; ZSTD and HTJ2K are unreadable for most, DWA and B44 change the values.
+* No ``chromaticities``: with them Mitsuba converts the pixels even of data that is marked raw.
+
+Nacreous writes attributes as text; OpenEXR keeps them byte for byte.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.errors import FileFormatError
+
+__all__ = ["read_part", "write_part"]
+
+
+def write_part(
+    path: Path, channels: Mapping[str, NDArray[np.float32]], attributes: Mapping[str, str | float]
+) -> None:
+    """Write one part.
+
+    Parameters
+    ----------
+    path : Path
+    channels : mapping of str to array, each (H, W)
+        An EXR keeps its channels in the order of their names.
+    attributes : mapping of str to str or float
+
+    Raises
+    ------
+    OSError
+        The file cannot be written.
+    """
+    import OpenEXR
+
+    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, **attributes}
+    planes = {name: np.ascontiguousarray(plane, np.float32) for name, plane in channels.items()}
+    try:
+        with OpenEXR.File(header, planes) as file:
+            file.write(str(path))
+    except RuntimeError as error:  # 'Failed to write pixel data to image file "…". File too large.'
+        raise OSError(str(error).rpartition('". ')[2]) from error
+
+
+def read_part(path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+    """Return channels, each (H, W), and attributes of a file's only part; raises `FileFormatError`."""
+    import OpenEXR
+
+    try:
+        with OpenEXR.File(str(path), separate_channels=True) as file:
+            if len(file.parts) != 1:
+                raise FileFormatError(f"expected an EXR of one part, got {len(file.parts)}")
+            channels = {name: np.array(channel.pixels) for name, channel in file.channels().items()}
+            return channels, dict(file.header())
+    except (RuntimeError, ValueError, TypeError) as error:  # what the binding makes of a damaged file
+        raise FileFormatError(f"expected an EXR, got one that cannot be read: {error}") from error

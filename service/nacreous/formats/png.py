@@ -1,0 +1,60 @@
+"""``png``: the lookup texture as a picture to look at, 8-bit sRGB, clipped to the gamut.
+
+Axes and files are those of the `exr` format. Text chunks carry the provenance, and
+``nacreous:gamut.outside``, the share of texels that clipping has changed. It is a picture, not data: 8 bits
+band, and a shader wants the linear values of the EXR.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from nacreous.errors import FileFormatError
+from nacreous.formats.atomic import replacing
+from nacreous.formats.contents import PREFIX, Contents, provenance_of
+from nacreous.formats.lookup import lookup_attributes, lookup_files, lookup_rows, required
+from nacreous.formats.srgb import encoded, out_of_gamut, rec709
+from nacreous.tables.table import Table
+
+__all__ = ["SUFFIX", "read", "write"]
+
+SUFFIX = ".png"
+
+_PERCEPTUAL = b"\x00"
+"""Rendering intent of the sRGB chunk (W3C PNG, section 11.3.2.5)."""
+
+
+def write(table: Table, path: Path) -> tuple[Path, ...]:
+    """Write the colours of `table` and return the files; raises `FileFormatError`."""
+    files = lookup_files(table, path, SUFFIX)
+    with replacing(*files.values()) as temporaries:
+        for quantity, temporary in zip(files, temporaries, strict=True):
+            _write_picture(table, quantity, temporary)
+    return tuple(files.values())
+
+
+def _write_picture(table: Table, quantity: str, path: Path) -> None:
+    from PIL import Image
+    from PIL.PngImagePlugin import PngInfo
+
+    colours = rec709(lookup_rows(required(table, f"{quantity}_rgb")), table.spec.colour)  # (H, W, 3)
+    texts = lookup_attributes(table, quantity) | {f"{PREFIX}gamut.outside": f"{out_of_gamut(colours):.4f}"}
+    chunks = PngInfo()
+    chunks.add(b"sRGB", _PERCEPTUAL)
+    for name, text in texts.items():
+        chunks.add_text(name, text)
+    Image.fromarray(encoded(colours)).save(path, format="PNG", pnginfo=chunks)
+
+
+def read(path: Path) -> Contents:
+    """Return the picture, (H, W, 3) of bytes, and the text chunks; raises `FileFormatError`."""
+    from PIL import Image
+
+    try:
+        with Image.open(path, formats=["PNG"]) as picture:
+            picture.load()
+            texts, pixels = dict(picture.text), np.asarray(picture)  # type: ignore[attr-defined]
+    except (OSError, SyntaxError, ValueError) as error:  # SyntaxError: a broken chunk
+        raise FileFormatError(f"expected a PNG, got one that cannot be read: {error}") from error
+    provenance = provenance_of(texts.items())
+    return Contents({f"{provenance.get('quantity', 'R')}_srgb": pixels}, provenance)

@@ -1,0 +1,171 @@
+"""Every format that Nacreous writes, in one immutable registry.
+
+A new format is a module with `SUFFIX`, `write` and `read`, a name in `nacreous.formats.names`, and a line here.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from nacreous.errors import SpecError
+from nacreous.formats import csv, exr, netcdf, npz, png, spectral_exr
+from nacreous.formats.contents import Contents
+from nacreous.formats.names import FormatName
+from nacreous.optics.value import did_you_mean, shown
+from nacreous.tables.table import Part, Table
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["FORMATS", "Format", "find_format", "format_of", "parts_of", "write"]
+
+_COLOUR = frozenset({Part.COLOUR})
+_SPECTRUM = frozenset({Part.SPECTRUM})
+_BOTH = _COLOUR | _SPECTRUM
+
+
+@dataclass(frozen=True)
+class Format:
+    """A file format.
+
+    Parameters
+    ----------
+    name : FormatName
+    suffix : str
+        What the file's name ends in.
+    parts : frozenset of Part
+        What of a table the file holds.
+    media_type : str
+    advice : str
+        For whom it is, in one line.
+    write : callable
+        Writes a table to a path, all or nothing, and returns every file; raises `FileFormatError`.
+    read : callable
+        Reads a file that `write` wrote; raises `FileFormatError`.
+    """
+
+    name: FormatName
+    suffix: str
+    parts: frozenset[Part]
+    media_type: str
+    advice: str
+    write: Callable[[Table, Path], tuple[Path, ...]]
+    read: Callable[[Path], Contents]
+
+
+_ALL = (
+    Format(
+        FormatName.EXR,
+        exr.SUFFIX,
+        _COLOUR,
+        "image/x-exr",
+        "lookup texture for any renderer: linear colour, float32",
+        exr.write,
+        exr.read,
+    ),
+    Format(
+        FormatName.SPECTRAL_EXR,
+        spectral_exr.SUFFIX,
+        _BOTH,
+        "image/x-exr",
+        "spectra for spectral renderers; more channels than Blender can load",
+        spectral_exr.write,
+        spectral_exr.read,
+    ),
+    Format(
+        FormatName.NPZ,
+        npz.SUFFIX,
+        _BOTH,
+        "application/x-npz",
+        "every array of the table for NumPy",
+        npz.write,
+        npz.read,
+    ),
+    Format(
+        FormatName.NETCDF,
+        netcdf.SUFFIX,
+        _BOTH,
+        "application/x-netcdf",
+        "the table with units for xarray and other scientific programs",
+        netcdf.write,
+        netcdf.read,
+    ),
+    Format(
+        FormatName.CSV,
+        csv.SUFFIX,
+        _SPECTRUM,
+        "text/csv",
+        "the spectra, one row a sample, for spreadsheets",
+        csv.write,
+        csv.read,
+    ),
+    Format(
+        FormatName.PNG,
+        png.SUFFIX,
+        _COLOUR,
+        "image/png",
+        "a picture of the lookup texture to look at, 8-bit sRGB",
+        png.write,
+        png.read,
+    ),
+)
+
+FORMATS: Mapping[FormatName, Format] = MappingProxyType({entry.name: entry for entry in _ALL})
+"""Every format by name."""
+
+
+def find_format(name: str) -> Format:
+    """Return the format of this name; raises `SpecError`."""
+    try:
+        return FORMATS[FormatName(name)]
+    except ValueError:
+        remedy = did_you_mean(name, FORMATS)
+        raise SpecError("format", f"one of {', '.join(FORMATS)}", shown(name), remedy) from None
+
+
+def format_of(path: Path) -> Format:
+    """Return the format whose suffix the file's name ends in, the longest that fits; raises `SpecError`."""
+    fitting = [entry for entry in _ALL if path.name.lower().endswith(entry.suffix)]
+    if not fitting:
+        suffixes = ", ".join(entry.suffix for entry in _ALL)
+        raise SpecError("", f"a file name that ends in {suffixes}", shown(path.name))
+    return max(fitting, key=lambda entry: len(entry.suffix))
+
+
+def parts_of(formats: Iterable[Format]) -> frozenset[Part]:
+    """Return the parts of a table that any of the formats holds."""
+    return frozenset[Part]().union(*(entry.parts for entry in formats))
+
+
+def write(
+    table: "Table | xarray.Dataset",
+    path: str | Path,
+    format: str | None = None,  # noqa: A002 - the word that numpy, xarray and Pillow use for it
+) -> tuple[Path, ...]:
+    """Write a table to a file.
+
+    Parameters
+    ----------
+    table : Table or xarray.Dataset
+        As `nacreous.tabulate` returns it.
+    path : str or Path
+    format : str, optional
+        Name of a format; without one it follows from the suffix of `path`.
+
+    Returns
+    -------
+    tuple of Path
+        Every file written: `path`, and for pictures of a transparent stack its ``.transmission`` companion.
+
+    Raises
+    ------
+    SpecError
+        There is no such format, or no format has this suffix.
+    FileFormatError
+        The table lacks what the format holds, or the file cannot be written. No file has changed.
+    """
+    target = Path(path)
+    chosen = format_of(target) if format is None else find_format(format)
+    return chosen.write(table if isinstance(table, Table) else Table.from_xarray(table), target)

@@ -1,0 +1,185 @@
+"""Whether a file is what it says: readable, finite, within the laws of energy, and of known origin."""
+
+import hashlib
+import json
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from nacreous.errors import NacreousError, SpecError
+from nacreous.formats.contents import Contents
+from nacreous.formats.registry import format_of
+from nacreous.opencl.sources import kernels_hash
+from nacreous.optics.value import shown
+from nacreous.tables.identity import table_id
+from nacreous.tables.spec import Spec
+from nacreous.tables.spec_document import Syntax
+
+__all__ = ["Verification", "file_sha256", "verify"]
+
+_FLUXES = ("R_s", "R_p", "T_s", "T_p", "R", "T")
+"""Shares of the incident flux; colours and angles may be negative."""
+_LEAST, _LARGEST = -1e-6, 1 + 2e-5
+"""What single precision makes of a flux of 0 and 1 at worst."""
+_PAIRS = (("R_s", "T_s"), ("R_p", "T_p"))
+_SHA256 = re.compile(r"[0-9a-f]{64}")
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What was found in a file.
+
+    Parameters
+    ----------
+    path : Path
+    format : str
+        Name of its format; empty where it has none of ours.
+    sha256 : str
+        Checksum of the whole file, in hex; empty where it cannot be read.
+    id, version : str
+        Id of the table, and the version of Nacreous that wrote it.
+    shapes : tuple of str
+        Each array as ``R_rgb 2x256x3``.
+    values, finite : int
+        Numbers in the file, and how many of them are finite.
+    least, largest : float
+        Range of the finite ones, over everything but the axes; NaN where there is none.
+    problems : tuple of str
+        What is wrong; empty for a good file.
+    """
+
+    path: Path
+    format: str = ""
+    sha256: str = ""
+    id: str = ""
+    version: str = ""
+    shapes: tuple[str, ...] = ()
+    values: int = 0
+    finite: int = 0
+    least: float = np.nan
+    largest: float = np.nan
+    problems: tuple[str, ...] = ()
+
+    @property
+    def good(self) -> bool:
+        """Whether nothing is wrong."""
+        return not self.problems
+
+
+def file_sha256(path: Path) -> str:
+    """Return the SHA-256 of a file, in hex."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def verify(path: str | Path) -> Verification:
+    """Read a file that Nacreous wrote, and say what it holds and what is wrong with it.
+
+    Nothing is raised for a bad file: whatever is found is in the answer.
+    """
+    file = Path(path)
+    try:
+        checksum = file_sha256(file)
+    except OSError as error:
+        return Verification(file, problems=(f"expected a file, got: {error.strerror or error}",))
+    try:
+        chosen = format_of(file)
+        contents = chosen.read(file)
+    except NacreousError as error:
+        return Verification(file, sha256=checksum, problems=(str(error),))
+    return _examined(file, chosen.name, checksum, contents)
+
+
+def _examined(path: Path, name: str, checksum: str, contents: Contents) -> Verification:
+    quantities = _quantities(contents)
+    numbers = np.concatenate([np.ravel(array).astype(np.float64) for array in quantities.values()])
+    finite = numbers[np.isfinite(numbers)]
+    return Verification(
+        path=path,
+        format=name,
+        sha256=checksum,
+        id=contents.provenance.get("id", ""),
+        version=contents.provenance.get("version", ""),
+        shapes=tuple(f"{key} {'x'.join(map(str, array.shape))}" for key, array in quantities.items()),
+        values=numbers.size,
+        finite=finite.size,
+        least=float(finite.min()) if finite.size else np.nan,
+        largest=float(finite.max()) if finite.size else np.nan,
+        problems=tuple(problem for check in _CHECKS for problem in check(contents)),
+    )
+
+
+def _quantities(contents: Contents) -> dict[str, np.ndarray]:
+    axes = ("thickness_scale", "cos_theta", "wavelength_nm", "channel")
+    return {name: array for name, array in contents.arrays.items() if name not in axes}
+
+
+# ---- one check each ----------------------------------------------------------------------------------------
+
+
+def _check_finite(contents: Contents) -> Iterator[str]:
+    for name, array in _quantities(contents).items():
+        bad = int(np.count_nonzero(~np.isfinite(array)))
+        if bad:
+            yield f"{name}: expected finite values, got {bad} that are not"
+
+
+def _check_fluxes(contents: Contents) -> Iterator[str]:
+    for name in contents.arrays.keys() & set(_FLUXES):
+        least, largest = np.nanmin(contents.arrays[name]), np.nanmax(contents.arrays[name])
+        if least < _LEAST or largest > _LARGEST:
+            yield f"{name}: expected a share from 0 to 1, got {least:.6g} to {largest:.6g}"
+
+
+def _check_energy(contents: Contents) -> Iterator[str]:
+    for R, T in _PAIRS:
+        if {R, T} <= contents.arrays.keys():
+            largest = np.nanmax(contents.arrays[R] + contents.arrays[T])
+            if largest > _LARGEST:
+                yield f"{R} + {T}: expected at most 1, got {largest:.6g}"
+
+
+def _check_axes(contents: Contents) -> Iterator[str]:
+    """Compare a picture's size with the axes that its attributes describe."""
+    for direction, name in enumerate(("axis.y", "axis.x")):
+        if name not in contents.provenance:
+            continue
+        count = json.loads(contents.provenance[name])["count"]
+        for quantity, array in contents.arrays.items():
+            if array.shape[direction] != count:
+                yield f"{quantity}: expected {count} texels along {name}, got {array.shape[direction]}"
+
+
+def _check_provenance(contents: Contents) -> Iterator[str]:
+    missing = [key for key in ("id", "version", "spec", "certificate") if key not in contents.provenance]
+    if missing:
+        yield f"expected the attributes {', '.join(f'nacreous:{key}' for key in missing)}, got none"
+        return
+    try:
+        spec = Spec.from_text(contents.provenance["spec"], Syntax.JSON)
+        json.loads(contents.provenance["certificate"])
+    except (SpecError, ValueError) as error:
+        yield f"nacreous:spec and nacreous:certificate: {error}"
+        return
+    yield from _check_id(contents, spec)
+
+
+def _check_id(contents: Contents, spec: Spec) -> Iterator[str]:
+    """Compare the id with the spec's, where the kernels that made the file are these kernels."""
+    claimed = contents.provenance["id"]
+    if not _SHA256.fullmatch(claimed):
+        yield f"nacreous:id: expected 64 hexadecimal digits, got {shown(claimed)}"
+    elif contents.provenance.get("kernels") == kernels_hash() and claimed != table_id(spec):
+        yield f"nacreous:id: expected {table_id(spec)}, the id of the file's spec, got {claimed}"
+
+
+_CHECKS: tuple[Callable[[Contents], Iterator[str]], ...] = (
+    _check_finite,
+    _check_fluxes,
+    _check_energy,
+    _check_axes,
+    _check_provenance,
+)

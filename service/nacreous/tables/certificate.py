@@ -1,0 +1,206 @@
+"""What a table's numbers are worth: its errors, measured between the texels.
+
+A reader of the table interpolates it linearly. The certificate does the same at the middle of cells, where a
+linear interpolation is at its worst, and compares with the film itself in double precision there. The cells are
+spread over the whole table; the texels at their corners are computed as the table's own are.
+"""
+
+import json
+from dataclasses import asdict, dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.opencl.film_colour import Side
+from nacreous.optics.colour import ColourSystem, lab
+from nacreous.optics.delta_e import delta_e_2000
+from nacreous.tables.film import Grid
+from nacreous.tables.solver import FilmSolver
+
+__all__ = ["Cells", "Certificate", "Colouring", "certify", "colour_cells", "colour_differences"]
+
+FloatArray = NDArray[np.float64]
+
+_MOST_SPECTRAL_CELLS = (8, 64, 32)
+"""Cells over thickness scale, angle and wavelength at which R and T are compared."""
+_MOST_COLOUR_CELLS = (32, 128)
+"""Cells over thickness scale and angle at which colours are compared."""
+_MOST_NUMBERS = 4_000_000
+"""Spectral values held at a time while exact colours are integrated."""
+_GAMUT_ROUNDING = 1e-5
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Measured errors of a table.
+
+    Parameters
+    ----------
+    held_out_points : int
+        Points between the texels that R and T were compared at.
+    intensity_error_max, intensity_error_p99 : float
+        Largest difference, and the 99th percentile, of interpolated and exact R_s, R_p, T_s and T_p.
+    rounding_error_max : float
+        The same at the texels: what the precision costs.
+    energy_max : float
+        Largest R + T of either polarisation; 1 without absorption.
+    nonfinite : int
+        Values that are not finite; a table with any is refused before it gets a certificate.
+    delta_e_max, delta_e_p99 : float or None
+        CIEDE2000 of interpolated and exact colour; None where the wavelengths span no colour.
+    out_of_gamut : float or None
+        Share of texels with a component below 0 or above 1.
+    """
+
+    held_out_points: int
+    intensity_error_max: float
+    intensity_error_p99: float
+    rounding_error_max: float
+    energy_max: float
+    nonfinite: int
+    delta_e_max: float | None
+    delta_e_p99: float | None
+    out_of_gamut: float | None
+
+    def to_json(self) -> str:
+        """One JSON object of the figures by name, rounded to four digits: more would be noise."""
+        figures = asdict(self)
+        rounded = {k: float(f"{v:.4g}") if isinstance(v, float) else v for k, v in figures.items()}
+        return json.dumps(rounded, allow_nan=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Colouring:
+    """How a film's colour is integrated: the system, its quadrature, and the weights, shape (3, Q)."""
+
+    system: ColourSystem
+    quadrature_nm: FloatArray
+    weights: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cells along one axis: each lies between `lower` and `upper`, shape (C,), and may have no width."""
+
+    lower: FloatArray
+    upper: FloatArray
+
+    @classmethod
+    def along(cls, axis: FloatArray, most: int) -> Self:
+        """At most `most` cells of an axis, evenly spread, both ends' among them; a single value is one cell."""
+        if axis.size == 1:
+            return cls(axis, axis)
+        first = np.unique(np.linspace(0, axis.size - 2, min(most, axis.size - 1)).round().astype(int))
+        return cls(axis[first], axis[first + 1])
+
+    @property
+    def corners(self) -> FloatArray:
+        """Lower ends, then upper ends, shape (2 C,)."""
+        return np.concatenate([self.lower, self.upper])
+
+    @property
+    def middles(self) -> FloatArray:
+        """Midpoints, shape (C,)."""
+        return (self.lower + self.upper) / 2
+
+
+def certify(solver: FilmSolver, grid: Grid, colouring: Colouring | None) -> Certificate:
+    """Measure a table's errors on cells spread over it."""
+    scales = Cells.along(grid.thickness_scale, _MOST_SPECTRAL_CELLS[0])
+    angles = Cells.along(grid.cos_theta, _MOST_SPECTRAL_CELLS[1])
+    waves = Cells.along(grid.wavelength_nm, _MOST_SPECTRAL_CELLS[2])
+    corners = Grid(scales.corners, angles.corners, waves.corners)
+    middles = Grid(scales.middles, angles.middles, waves.middles)
+    texels = _stacked(solver.intensities(corners))  # (4, 2 S, 2 A, 2 L)
+    rounding = np.abs(texels - _stacked(solver.exact_intensities(corners)))
+    error = np.abs(_middle_of(texels, 3) - _stacked(solver.exact_intensities(middles)))
+    colour = _NO_COLOUR if colouring is None else _colour_figures(solver, grid, colouring)
+    return Certificate(
+        held_out_points=error[0].size,
+        intensity_error_max=float(error.max()),
+        intensity_error_p99=float(np.quantile(error, 0.99)),
+        rounding_error_max=float(rounding.max()),
+        energy_max=float((texels[:2] + texels[2:]).max()),
+        nonfinite=int(np.count_nonzero(~np.isfinite(texels))),
+        **colour,
+    )
+
+
+def colour_cells(grid: Grid) -> tuple[Cells, Cells]:
+    """The cells over thickness scale and angle at which a colour table is measured."""
+    scales = Cells.along(grid.thickness_scale, _MOST_COLOUR_CELLS[0])
+    return scales, Cells.along(grid.cos_theta, _MOST_COLOUR_CELLS[1])
+
+
+def colour_differences(
+    solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring
+) -> FloatArray:
+    """CIEDE2000 of interpolated and exact colour amid cells, of R and, where there is one, T: (sides, S, A)."""
+    return _differences(solver, scales, angles, colouring)[0]
+
+
+def _differences(
+    solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring
+) -> tuple[FloatArray, FloatArray]:
+    texels = _texels(solver, scales, angles, colouring)
+    exact = _exact_colours(solver, scales.middles, angles.middles, colouring)
+    between = _middle_of(texels, 2)
+    return delta_e_2000(_lab(between, colouring.system), _lab(exact, colouring.system)), texels
+
+
+_NO_COLOUR: dict[str, float | None] = {"delta_e_max": None, "delta_e_p99": None, "out_of_gamut": None}
+
+
+def _colour_figures(solver: FilmSolver, grid: Grid, colouring: Colouring) -> dict[str, float | None]:
+    differences, texels = _differences(solver, *colour_cells(grid), colouring)
+    outside = (texels < -_GAMUT_ROUNDING) | (texels > 1 + _GAMUT_ROUNDING)
+    return {
+        "delta_e_max": float(differences.max()),
+        "delta_e_p99": float(np.quantile(differences, 0.99)),
+        "out_of_gamut": float(outside.any(axis=-1).mean()),
+    }
+
+
+def _stacked(intensities: dict[str, NDArray[np.floating]]) -> FloatArray:
+    return np.stack([np.asarray(values, np.float64) for values in intensities.values()])
+
+
+def _middle_of(corners: FloatArray, axes: int) -> FloatArray:
+    """Linear interpolation to the middle of cells over axes 1 to `axes`, lower corners first in each."""
+    for axis in range(1, axes + 1):
+        lower, upper = np.split(corners, 2, axis)
+        corners = (lower + upper) / 2
+    return corners
+
+
+def _texels(solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring) -> FloatArray:
+    """Colours at the cells' corners, as the table has them: (sides, 2 S, 2 A, 3)."""
+    grid = Grid(scales.corners, angles.corners, colouring.quadrature_nm)
+    colours = [solver.colour(grid, colouring.weights, side) for side in solver.sides]
+    return np.stack([np.asarray(colour, np.float64) for colour in colours])
+
+
+def _exact_colours(
+    solver: FilmSolver, thickness_scale: FloatArray, cos_theta: FloatArray, colouring: Colouring
+) -> FloatArray:
+    """Colours integrated from spectra in double precision, some angles at a time: (sides, S, A, 3)."""
+    at_a_time = max(1, _MOST_NUMBERS // (thickness_scale.size * colouring.quadrature_nm.size))
+    blocks = np.split(cos_theta, range(at_a_time, cos_theta.size, at_a_time))
+    return np.concatenate(
+        [_block_colours(solver, Grid(thickness_scale, mu, colouring.quadrature_nm), colouring) for mu in blocks],
+        axis=2,
+    )
+
+
+def _block_colours(solver: FilmSolver, grid: Grid, colouring: Colouring) -> FloatArray:
+    exact = solver.exact_intensities(grid)
+    spectra = {
+        Side.REFLECTION: (exact["R_s"] + exact["R_p"]) / 2,
+        Side.TRANSMISSION: (exact["T_s"] + exact["T_p"]) / 2,
+    }
+    return np.stack([spectra[side] @ colouring.weights.T for side in solver.sides])
+
+
+def _lab(colour: FloatArray, system: ColourSystem) -> FloatArray:
+    return lab(system.to_xyz(colour), system.white)

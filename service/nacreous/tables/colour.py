@@ -1,0 +1,63 @@
+"""The colour of a film: which wavelengths it is integrated over, and lookup textures of it."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.errors import SpecError
+from nacreous.optics.colour import ColourSystem
+from nacreous.optics.stack import Stack
+from nacreous.tables.film import Grid, film_problem, optical_thickness_nm
+from nacreous.tables.thickness_spread import one_thickness
+
+__all__ = ["has_colour", "quadrature_nm"]
+
+FloatArray = NDArray[np.float64]
+
+VISIBLE_NM = (400.0, 700.0)
+"""What the wavelengths of a spec must span for its tables to have a colour."""
+
+SAMPLES_A_FRINGE = 8
+_WIDEST_STEP_NM = 1.0
+_MOST_SAMPLES = 65_536
+
+
+def has_colour(wavelength_nm: FloatArray) -> bool:
+    """Whether wavelengths span the visible range, so that a colour can be computed."""
+    return bool(wavelength_nm[0] <= VISIBLE_NM[0] and wavelength_nm[-1] >= VISIBLE_NM[1])
+
+
+def quadrature_nm(
+    stack: Stack, largest_scale: float, wavelength_nm: FloatArray, system: ColourSystem
+) -> FloatArray:
+    """Wavelengths that resolve the film's colour, whatever spectral axis is stored, shape (Q,).
+
+    The part of the spec's range that the observer sees, in equal steps of 1 nm at most and at least 8 samples a
+    fringe. Fringes are lambda^2 / (2 n d) apart, n d the optical thickness of the whole coherent stack; that is
+    taken at 400 nm, below which an eye sees next to nothing.
+
+    Raises
+    ------
+    SpecError
+        The film is so thick that its fringes cannot be resolved.
+    """
+    first = max(system.range_nm[0], wavelength_nm[0])
+    last = min(system.range_nm[1], wavelength_nm[-1])
+    fringe_nm = VISIBLE_NM[0] ** 2 / max(2 * _optical_thickness_nm(stack, largest_scale), 1e-3)
+    step_nm = min(_WIDEST_STEP_NM, fringe_nm / SAMPLES_A_FRINGE)
+    samples = int(np.ceil((last - first) / step_nm)) + 1
+    if samples > _MOST_SAMPLES:
+        raise SpecError(
+            "stack.layers",
+            f"fringes that {_MOST_SAMPLES:,} wavelengths resolve",
+            f"fringes {fringe_nm:.2g} nm apart",
+            "give a layer this thick coherent = false",
+        )
+    return np.linspace(first, last, samples)
+
+
+def _optical_thickness_nm(stack: Stack, largest_scale: float) -> float:
+    """Largest n d of the coherent layers together, every repeat counted, over the visible wavelengths."""
+    layers = sum(len(getattr(entry, "layers", (entry,))) for entry in stack.layers)
+    grid = Grid(np.array([largest_scale]), np.ones(1), np.linspace(*VISIBLE_NM, 31))
+    problem = film_problem(stack, one_thickness(layers), grid)
+    return float(optical_thickness_nm(problem).sum(axis=0).max())

@@ -1,0 +1,119 @@
+"""A spec's film as a problem for the kernels, and its R and T, checked.
+
+A film is solved in the precision asked for, and in double precision wherever a coherent phase is so large that
+single precision would lose it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.errors import NumericalError
+from nacreous.opencl.device import Device
+from nacreous.opencl.film import film_intensities
+from nacreous.opencl.film_problem import THICK, FilmProblem, Segment
+from nacreous.opencl.precision import Precision
+from nacreous.opencl.tiles import Observer
+from nacreous.optics.stack import SampledStack, Stack, sample_stack
+from nacreous.tables.thickness_spread import ThicknessSpread
+
+__all__ = ["Grid", "checked_intensities", "film_problem", "optical_thickness_nm", "phase_precision", "segments"]
+
+FloatArray = NDArray[np.float64]
+
+SINGLE_PRECISION_PHASE = 200.0
+"""Largest phase in radians, 2 pi n d / lambda of a layer times its repeats, left to single precision.
+
+A phase of 200 is rounded to 1e-5 of a radian in 24 bits; the goldens with larger ones show errors above 1e-5.
+"""
+
+LEAST, MOST = -1e-6, 1 + 2e-5
+"""Bounds of R and T before clamping; what lies outside is a fault and not rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """The points a film is evaluated at: every combination of the three axes.
+
+    Parameters
+    ----------
+    thickness_scale, cos_theta, wavelength_nm : float arrays, shape (S,), (A,) and (L,)
+    """
+
+    thickness_scale: FloatArray
+    cos_theta: FloatArray
+    wavelength_nm: FloatArray
+
+
+def film_problem(stack: Stack, spread: ThicknessSpread, grid: Grid) -> FilmProblem:
+    """Sample the stack at the grid's wavelengths and lay its thicknesses out, (S, V, M)."""
+    sampled = sample_stack(stack, grid.wavelength_nm)
+    variants = sampled.thickness_nm + spread.offset_nm  # (V, M)
+    return FilmProblem(
+        wavelength_nm=sampled.wavelength_nm,
+        index=sampled.index,
+        segments=segments(sampled),
+        thickness_nm=grid.thickness_scale[:, None, None] * variants,
+        weights=spread.weights,
+        cos_theta=grid.cos_theta,
+    )
+
+
+def segments(stack: SampledStack) -> tuple[Segment, ...]:
+    """Cut a stack into runs, periodic groups and thick layers, from the substrate outwards."""
+    cuts = {span.first: Segment(span.first, span.stop, span.repeat) for span in stack.groups}
+    cuts |= {int(j): Segment(int(j), int(j) + 1, THICK) for j in np.flatnonzero(~stack.coherent)}
+    ordered, position = [], 0
+    for first in sorted(cuts):
+        if first > position:
+            ordered.append(Segment(position, first, 1))
+        ordered.append(cuts[first])
+        position = cuts[first].stop
+    if position < len(stack.thickness_nm):
+        ordered.append(Segment(position, len(stack.thickness_nm), 1))
+    return tuple(reversed(ordered))
+
+
+def optical_thickness_nm(problem: FilmProblem) -> FloatArray:
+    """n d of each segment, all repeats together, at the largest scale: shape (segments, L); 0 for a thick layer."""
+    thickest = problem.thickness_nm.max(axis=(0, 1))  # (M,)
+    depth = problem.index[1:-1].real * thickest[:, None]  # (M, L)
+    return np.array([s.repeat * depth[s.first : s.stop].sum(axis=0) for s in problem.segments])
+
+
+def phase_precision(problem: FilmProblem, asked: Precision) -> Precision:
+    """Return `asked`, or double precision where a phase is larger than single precision can hold."""
+    thickest = problem.thickness_nm.max(axis=(0, 1))  # (M,)
+    repeats = np.zeros(thickest.size)
+    for segment in problem.segments:
+        repeats[segment.first : segment.stop] = segment.repeat
+    size = np.abs(problem.index[1:-1])  # (M, L)
+    phase = 2 * np.pi * (size / problem.wavelength_nm) * (thickest * repeats)[:, None]
+    return Precision.DOUBLE if phase.max() > SINGLE_PRECISION_PHASE else asked
+
+
+def checked_intensities(
+    device: Device, problem: FilmProblem, precision: Precision, observer: Observer | None = None
+) -> dict[str, NDArray[np.floating]]:
+    """R_s, R_p, T_s and T_p of shape (S, A, L), within [0, 1].
+
+    Raises
+    ------
+    NumericalError
+        A value is not finite, or lies outside [0, 1] by more than rounding explains.
+    """
+    computed = film_intensities(device, problem, precision, observer=observer)
+    for name, values in computed.items():
+        check_range(name, values)
+        np.clip(values, 0, 1, out=values)
+    return computed
+
+
+def check_range(name: str, values: NDArray[np.floating]) -> None:
+    """Raise `NumericalError` for a value that is not finite (counted before any clamp hides it) or not a ratio."""
+    least, most = float(values.min()), float(values.max())
+    if not (least >= LEAST and most <= MOST):  # False for NaN, too
+        bad = int(np.count_nonzero(~np.isfinite(values)))
+        message = f"{name} lies in [{least:.9g}, {most:.9g}] with {bad} values that are not finite"
+        raise NumericalError(f"{message}; it must lie in [0, 1]. Please report this stack.")

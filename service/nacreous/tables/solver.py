@@ -1,0 +1,106 @@
+"""One spec's film, ready to be evaluated at any points: what tables and their certificates are computed with."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.opencl.device import Device
+from nacreous.opencl.film_colour import Side, film_colour
+from nacreous.opencl.film_ellipsometry import film_ellipsometry
+from nacreous.opencl.precision import Precision
+from nacreous.opencl.tiles import Observer
+from nacreous.optics.stack import Stack, sample_stack
+from nacreous.tables.film import Grid, checked_intensities, film_problem, phase_precision
+from nacreous.tables.thickness_spread import ThicknessSpread, converged_spread, one_thickness
+
+__all__ = ["FilmSolver", "film_solver"]
+
+FloatArray = NDArray[np.float64]
+
+TRANSMITTING_K = 1e-3
+"""A substrate with less than this k lets light through; more, and a millimetre of it is opaque."""
+
+_PROBES = (2, 8, 48)
+"""Scales, angles and wavelengths at which the nodes of a thickness spread are settled."""
+
+
+@dataclass(frozen=True, eq=False)
+class FilmSolver:
+    """A film on a device.
+
+    Parameters
+    ----------
+    device : Device
+    stack : Stack
+    spread : ThicknessSpread
+        Nodes of the thickness distribution.
+    precision : Precision
+        Of the tables; `exact` results are always in double precision.
+    transmits : bool
+        Whether the substrate lets light through.
+    """
+
+    device: Device
+    stack: Stack
+    spread: ThicknessSpread
+    precision: Precision
+    transmits: bool
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        """Reflection, and transmission where there is any."""
+        return (Side.REFLECTION, Side.TRANSMISSION) if self.transmits else (Side.REFLECTION,)
+
+    def intensities(self, grid: Grid, observer: Observer | None = None) -> dict[str, NDArray[np.floating]]:
+        """R_s, R_p, T_s and T_p of shape (S, A, L), in the table's precision."""
+        problem = film_problem(self.stack, self.spread, grid)
+        return checked_intensities(self.device, problem, self.precision, observer)
+
+    def exact_intensities(self, grid: Grid) -> dict[str, NDArray[np.floating]]:
+        """The same in double precision."""
+        problem = film_problem(self.stack, self.spread, grid)
+        return checked_intensities(self.device, problem, Precision.DOUBLE)
+
+    def ellipsometry(self, grid: Grid, observer: Observer | None = None) -> dict[str, NDArray[np.floating]]:
+        """psi and Delta of shape (S, A, L), in radians."""
+        problem = film_problem(self.stack, self.spread, grid)
+        return film_ellipsometry(self.device, problem, self.precision, observer=observer)
+
+    def colour(
+        self, grid: Grid, weights: FloatArray, side: Side, observer: Observer | None = None
+    ) -> NDArray[np.floating]:
+        """Linear colour of shape (S, A, 3) of R or T, the grid's wavelengths weighted with (3, L)."""
+        problem = film_problem(self.stack, self.spread, grid)
+        return film_colour(self.device, problem, weights, side, self.precision, observer=observer)
+
+
+def film_solver(device: Device, stack: Stack, grid: Grid, asked: Precision) -> FilmSolver:
+    """Settle the thickness nodes and the precision that the film needs on a grid."""
+    transmits = bool(sample_stack(stack, grid.wavelength_nm).index[-1].imag.max() < TRANSMITTING_K)
+    spread = _spread(device, stack, grid)
+    precision = phase_precision(film_problem(stack, spread, grid), asked)
+    return FilmSolver(device, stack, spread, precision, transmits)
+
+
+def _spread(device: Device, stack: Stack, grid: Grid) -> ThicknessSpread:
+    sampled = sample_stack(stack, grid.wavelength_nm[:1])
+    if not sampled.thickness_sigma_nm.any():
+        return one_thickness(sampled.thickness_nm.size)
+    probe = Grid(
+        _probe(grid.thickness_scale, _PROBES[0]),
+        _probe(grid.cos_theta, _PROBES[1]),
+        _probe(grid.wavelength_nm, _PROBES[2]),
+    )
+
+    def mean_intensities(spread: ThicknessSpread) -> FloatArray:
+        problem = film_problem(stack, spread, probe)
+        computed = checked_intensities(device, problem, Precision.DOUBLE)
+        return np.stack([np.asarray(values, np.float64) for values in computed.values()])
+
+    return converged_spread(stack, grid.wavelength_nm, mean_intensities)
+
+
+def _probe(axis: FloatArray, count: int) -> FloatArray:
+    """At most `count` values of an axis, both ends among them, the last first: its fringes are the finest."""
+    return axis[np.unique(np.linspace(axis.size - 1, 0, count).round().astype(int))]

@@ -1,0 +1,181 @@
+"""From a spec to a table."""
+
+from collections.abc import Collection
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.errors import SpecError
+from nacreous.opencl.device import Device, open_device
+from nacreous.opencl.film_colour import Side
+from nacreous.opencl.precision import Precision
+from nacreous.opencl.sources import kernels_hash
+from nacreous.opencl.tiles import Observer
+from nacreous.optics.colour import colour_system
+from nacreous.tables.axes import cos_theta_values, thickness_scale_values, wavelength_values_nm
+from nacreous.tables.certificate import Certificate, Colouring, certify
+from nacreous.tables.colour import VISIBLE_NM, has_colour, quadrature_nm
+from nacreous.tables.film import Grid
+from nacreous.tables.identity import table_id
+from nacreous.tables.refine import refined
+from nacreous.tables.solver import FilmSolver, film_solver
+from nacreous.tables.spec import Spec
+from nacreous.tables.table import Part, Table, Variable
+
+__all__ = ["Observer", "tabulate_table"]
+
+_PRECISIONS = {"single": Precision.SINGLE, "double": Precision.DOUBLE}
+
+_SPECTRAL_DIMS = ("thickness_scale", "cos_theta", "wavelength_nm")
+_COLOUR_DIMS = ("thickness_scale", "cos_theta", "channel")
+
+_MEANINGS = {
+    "R_s": "reflectance, s polarised",
+    "R_p": "reflectance, p polarised",
+    "T_s": "transmittance into the substrate, s polarised",
+    "T_p": "transmittance into the substrate, p polarised",
+    "psi": "ellipsometric angle psi",
+    "Delta": "ellipsometric angle Delta, tan(psi) exp(i Delta) = -r_p / r_s",
+}
+_COLOURS = {
+    Side.REFLECTION: ("R_rgb", "linear colour of the unpolarised reflectance"),
+    Side.TRANSMISSION: ("T_rgb", "linear colour of the unpolarised transmittance"),
+}
+
+
+def tabulate_table(
+    spec: Spec, parts: Collection[Part] | None = None, *, observer: Observer | None = None
+) -> Table:
+    """Compute a table.
+
+    Parameters
+    ----------
+    spec : Spec
+    parts : collection of Part, optional
+        What is computed; everything that the spec has, without it. A spec whose wavelengths do not span the
+        visible has no colour.
+    observer : callable, optional
+        Told the fraction done; what it raises ends the work.
+
+    Raises
+    ------
+    SpecError
+        A material, a name or an axis of the spec cannot be used.
+    BudgetError
+        The table is larger than the byte budget; nothing has been allocated.
+    DeviceError, NumericalError
+    """
+    device = open_device()
+    grid = Grid(
+        thickness_scale_values(spec.table.thickness_scale),
+        cos_theta_values(spec.table.cos_theta),
+        wavelength_values_nm(spec.table.wavelength_nm),
+    )
+    wanted = _wanted(parts, grid)
+    _check_ellipsometry(spec)
+    solver = film_solver(device, spec.stack, grid, _PRECISIONS[spec.accuracy.precision])
+    colouring = _colouring(spec, grid) if has_colour(grid.wavelength_nm) else None
+    if spec.accuracy.delta_e is not None:
+        grid = refined(solver, grid, _required(colouring), spec.accuracy.delta_e)
+    variables = _variables(spec, solver, grid, colouring, wanted, observer)
+    certificate = certify(solver, grid, colouring)
+    return Table(spec, _coords(grid, colouring), variables, _provenance(spec, device, solver, certificate))
+
+
+def _wanted(parts: Collection[Part] | None, grid: Grid) -> frozenset[Part]:
+    if parts is None:
+        return frozenset(Part) if has_colour(grid.wavelength_nm) else frozenset({Part.SPECTRUM})
+    if Part.COLOUR in parts and not has_colour(grid.wavelength_nm):
+        raise _no_colour(grid)
+    return frozenset(parts)
+
+
+def _no_colour(grid: Grid) -> SpecError:
+    expected = f"wavelengths that span {VISIBLE_NM[0]:g} to {VISIBLE_NM[1]:g} nm, for a colour"
+    return SpecError(
+        "table.wavelength_nm",
+        expected,
+        f"{grid.wavelength_nm[0]:g} to {grid.wavelength_nm[-1]:g} nm",
+        "ask for a format without colours, such as npz or csv",
+    )
+
+
+def _required(colouring: Colouring | None) -> Colouring:
+    if colouring is None:
+        raise SpecError("accuracy.delta_e", "a table with a colour", "wavelengths that span none")
+    return colouring
+
+
+def _check_ellipsometry(spec: Spec) -> None:
+    """psi and Delta belong to one phase; an average of intensities has none."""
+    layers = [layer for entry in spec.stack.layers for layer in getattr(entry, "layers", (entry,))]
+    if spec.table.ellipsometry and any(not layer.coherent or layer.thickness_sigma_nm for layer in layers):
+        raise SpecError(
+            "table.ellipsometry",
+            "a film of coherent layers without thickness_sigma_nm",
+            "one whose intensities are averaged, which has no phase",
+            "leave ellipsometry out, or make the layers coherent and even",
+        )
+
+
+def _colouring(spec: Spec, grid: Grid) -> Colouring:
+    system = colour_system(spec.colour.illuminant, spec.colour.observer, spec.colour.space)
+    quadrature = quadrature_nm(spec.stack, float(grid.thickness_scale[-1]), grid.wavelength_nm, system)
+    return Colouring(system, quadrature, system.weights(quadrature))
+
+
+def _variables(
+    spec: Spec,
+    solver: FilmSolver,
+    grid: Grid,
+    colouring: Colouring | None,
+    wanted: frozenset[Part],
+    observer: Observer | None,
+) -> dict[str, Variable]:
+    variables: dict[str, Variable] = {}
+    if Part.SPECTRUM in wanted:
+        for name, values in solver.intensities(grid, observer).items():
+            variables[name] = Variable(_SPECTRAL_DIMS, values, "1", _MEANINGS[name])
+    if Part.SPECTRUM in wanted and spec.table.ellipsometry:
+        for name, values in solver.ellipsometry(grid, observer).items():
+            variables[name] = Variable(_SPECTRAL_DIMS, values, "rad", _MEANINGS[name])
+    if Part.COLOUR in wanted and colouring is not None:
+        integrated = Grid(grid.thickness_scale, grid.cos_theta, colouring.quadrature_nm)
+        for side in solver.sides:
+            name, meaning = _COLOURS[side]
+            colour = solver.colour(integrated, colouring.weights, side, observer)
+            variables[name] = Variable(_COLOUR_DIMS, colour, "1", meaning)
+    return variables
+
+
+def _coords(grid: Grid, colouring: Colouring | None) -> dict[str, Variable]:
+    def axis(name: str, values: NDArray[Any], unit: str, meaning: str) -> Variable:
+        return Variable((name,), values, unit, meaning)
+
+    coords = {
+        "thickness_scale": axis(
+            "thickness_scale", grid.thickness_scale, "1", "factor on every layer's thickness"
+        ),
+        "cos_theta": axis("cos_theta", grid.cos_theta, "1", "cosine of the angle in the incident medium"),
+        "wavelength_nm": axis("wavelength_nm", grid.wavelength_nm, "nm", "vacuum wavelength"),
+    }
+    if colouring is not None:
+        channels = np.array(colouring.system.channels)
+        coords["channel"] = axis("channel", channels, "", "component of the linear colour")
+    return coords
+
+
+def _provenance(
+    spec: Spec, device: Device, solver: FilmSolver, certificate: Certificate
+) -> dict[str, str]:
+    return {
+        "id": table_id(spec),
+        "version": version("nacreous"),
+        "spec": spec.model_dump_json(),
+        "certificate": certificate.to_json(),
+        "precision": solver.precision.name.lower(),
+        "device": f"{device.info.platform}, {device.info.name}, {device.info.version}",
+        "kernels": kernels_hash(),
+    }
