@@ -14,12 +14,12 @@ kernel void film(global const real *media,        // (M + 1, MEDIUM_ROWS, stride
                  global const real *cos_theta,    // (angles)
                  global const real *thickness_nm, // (scales, variants, M)
                  global const real *weights,      // (variants), of sum 1
-                 int variants, int angles, int rows, int row_origin,
-                 global real *R_s, global real *R_p, // (rows - row_origin or fewer, stride)
+                 int variants, int angles, int row_origin, int row_stop,
+                 global real *R_s, global real *R_p, // (row_stop - row_origin, stride)
                  global real *T_s, global real *T_p) {
     int block = get_global_id(0), tile_row = get_global_id(1);
     int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
-    if (row >= rows || block * LANES >= stride) return;
+    if (row >= row_stop || block * LANES >= stride) return;
 
     film_stack stack = {media, critical_mu2, segments, segment_count, layer_count, stride};
     incidence in = incidence_at(incident, stride, block, cos_theta[angle]);

@@ -23,12 +23,12 @@ kernel void film_colour(global const real *media,        // (M + 1, MEDIUM_ROWS,
                         global const real *cos_theta,    // (angles)
                         global const real *thickness_nm, // (scales, variants, M)
                         global const real *weights,      // (variants), of sum 1
-                        int variants, int angles, int rows, int row_origin,
+                        int variants, int angles, int row_origin, int row_stop,
                         global const real *colour_weights, // (3, stride)
-                        global real *colour) {             // (rows - row_origin or fewer, 3)
+                        global real *colour) {             // (row_stop - row_origin, 3)
     int tile_row = get_global_id(0);
     int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
-    if (row >= rows) return;
+    if (row >= row_stop) return;
 
     film_stack stack = {media, critical_mu2, segments, segment_count, layer_count, stride};
     thickness_nm += scale * variants * layer_count;

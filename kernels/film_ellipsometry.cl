@@ -12,11 +12,11 @@ kernel void film_ellipsometry(global const real *media,        // (M + 1, MEDIUM
                               global const real *cos_theta,    // (angles)
                               global const real *thickness_nm, // (scales, variants, M)
                               global const real *weights,      // unused: variants is 1
-                              int variants, int angles, int rows, int row_origin,
-                              global real *psi, global real *Delta) { // (rows - row_origin or fewer, stride)
+                              int variants, int angles, int row_origin, int row_stop,
+                              global real *psi, global real *Delta) { // (row_stop - row_origin, stride)
     int block = get_global_id(0), tile_row = get_global_id(1);
     int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
-    if (row >= rows || block * LANES >= stride) return;
+    if (row >= row_stop || block * LANES >= stride) return;
 
     film_stack stack = {media, critical_mu2, segments, segment_count, layer_count, stride};
     incidence in = incidence_at(incident, stride, block, cos_theta[angle]);

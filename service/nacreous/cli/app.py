@@ -25,7 +25,7 @@ _COMMANDS = (tabulate, preview, presets, schema, devices, doctor, verify)
 def main() -> None:
     """Run the program; every error that is foreseen ends here, as one message and an exit code."""
     try:
-        code = _app()(standalone_mode=False)
+        code = _app()(sys.argv[1:] or ["--help"], prog_name="nacreous", standalone_mode=False)
     except (TyperException, NacreousError, OSError, KeyboardInterrupt) as error:
         report(error)
         code = exit_code(error)
@@ -37,7 +37,6 @@ def _app() -> typer.Typer:
         name="nacreous",
         help="Tabulated BSDFs of thin-film interference, for renderers without spectral interference.",
         epilog="Begin with: nacreous tabulate soap-bubble",
-        no_args_is_help=True,
         add_completion=False,
         pretty_exceptions_enable=False,
     )

@@ -20,7 +20,7 @@ SPECTRUM_ANGLES = (75.0, 60.0, 30.0, 0.0)
 _ANGLES = np.linspace(89.0, 0.0, 179)
 """Degrees of the swatch's columns, grazing first; their cosines ascend."""
 
-_THICKNESSES = 161
+_THICKNESSES = 401
 
 
 @dataclass(frozen=True, eq=False)

@@ -48,7 +48,7 @@ def _computed(spec: "Spec", formats: "Sequence[Format]") -> "Table":
     from nacreous.tables.tabulate import tabulate_table
 
     with progress("tabulating") as observer:
-        return tabulate_table(spec, parts_of(formats), observer=observer)
+        return tabulate_table(spec, parts_of(formats, spec), observer=observer)
 
 
 def _written(table: "Table", formats: "Sequence[Format]", stem: Path) -> "Iterator[tuple[Path, Format]]":

@@ -2,8 +2,8 @@
 
 Lines that begin with ``#`` hold the provenance; ``pandas.read_csv(path, comment="#")`` reads the rest.
 Columns are ``thickness_scale, cos_theta, wavelength_nm, R_s, R_p, T_s, T_p``, and ``psi, Delta`` in radians
-where the table has them; the wavelength changes fastest. Nine digits give every float32 back exactly
-(IEEE 754-2008, section 5.12.2).
+where the table has them; the wavelength changes fastest. Nine digits give every float32 back exactly, and
+seventeen every float64 (IEEE 754-2008, section 5.12.2).
 """
 
 from collections.abc import Iterator
@@ -25,6 +25,8 @@ SUFFIX = ".csv"
 _AXES = ("thickness_scale", "cos_theta", "wavelength_nm")
 _FLUXES = ("R_s", "R_p", "T_s", "T_p")
 _ELLIPSOMETRY = ("psi", "Delta")
+_DIGITS = {4: 9, 8: 17}
+"""Digits that tell all numbers apart, by their size in bytes."""
 
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
@@ -47,7 +49,7 @@ def _comments(table: Table) -> Iterator[str]:
 def _rows(table: Table, scale: float, values: np.ndarray) -> Iterator[str]:
     """Yield the lines of one thickness, values (A, L, columns)."""
     wavelengths = [f"{nm!r}," for nm in table.values("wavelength_nm").tolist()]
-    row = ",".join(["%.9g"] * values.shape[-1]) + "\n"
+    row = ",".join([f"%.{_DIGITS[values.dtype.itemsize]}g"] * values.shape[-1]) + "\n"
     for cosine, at_cosine in zip(table.values("cos_theta").tolist(), values.tolist(), strict=True):
         start = f"{scale!r},{cosine!r},"
         yield from (start + nm + row % tuple(at) for nm, at in zip(wavelengths, at_cosine, strict=True))

@@ -27,7 +27,7 @@ import numpy as np
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
 from nacreous.formats.contents import Contents, provenance_of
-from nacreous.formats.lookup import lookup_attributes, lookup_files, lookup_rows, required
+from nacreous.formats.lookup import colour_quantities, lookup_attributes, lookup_files, lookup_rows, required
 from nacreous.formats.openexr import read_part, write_part
 from nacreous.tables.table import Table
 
@@ -38,7 +38,7 @@ SUFFIX = ".exr"
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write the colours of `table` and return the files; raises `FileFormatError`."""
-    files = lookup_files(table, path, SUFFIX)
+    files = lookup_files(path, SUFFIX, colour_quantities(table))
     names = table.values("channel").tolist()
     with replacing(*files.values()) as temporaries:
         for quantity, temporary in zip(files, temporaries, strict=True):

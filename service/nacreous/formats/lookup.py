@@ -1,7 +1,7 @@
 """The lookup texture: a table as a picture that a shader reads at (cos_theta, thickness_scale).
 
-x is cos_theta from left to right, y is thickness_scale from the top row down, both ascending. Every texel is a
-sample at the axis's own value, so the first and the last texel *centres* are the ends of the axis: a shader
+x is cos_theta from left to right, y is thickness_scale from the top row down, both ascending. Every texel is
+a sample at the axis's own value, so the first and the last texel *centres* are the ends of the axis: a shader
 reads at u = (x (N - 1) + 0.5) / N. A table of one thickness becomes two equal rows, so that it makes no
 difference whether a renderer counts rows from the top or from the bottom.
 
@@ -9,6 +9,7 @@ Reflection and transmission are two files: an alpha channel would be multiplied 
 """
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,13 +20,11 @@ from nacreous.errors import FileFormatError
 from nacreous.formats.contents import labelled
 from nacreous.tables.table import Table
 
-__all__ = ["lookup_attributes", "lookup_files", "lookup_rows", "required"]
-
-_COLOUR_OF = {"R": "R_rgb", "T": "T_rgb"}
+__all__ = ["colour_quantities", "lookup_attributes", "lookup_files", "lookup_rows", "required"]
 
 
-def lookup_files(table: Table, path: Path, suffix: str) -> dict[str, Path]:
-    """Return the file of each quantity: ``film.exr`` for R, and ``film.transmission.exr`` for T if it is there.
+def colour_quantities(table: Table) -> tuple[str, ...]:
+    """Return the quantities whose colour the table holds: ``R``, and ``T`` where the substrate transmits.
 
     Raises
     ------
@@ -33,9 +32,14 @@ def lookup_files(table: Table, path: Path, suffix: str) -> dict[str, Path]:
         The table holds no colours.
     """
     required(table, "R_rgb")
+    return ("R", "T") if "T_rgb" in table.variables else ("R",)
+
+
+def lookup_files(path: Path, suffix: str, quantities: Sequence[str]) -> dict[str, Path]:
+    """Return the file of each quantity: ``film.exr`` for R and ``film.transmission.exr`` for T."""
     stem, end = _split(path.name, suffix)
     files = {"R": path, "T": path.with_name(f"{stem}.transmission{end}")}
-    return {quantity: files[quantity] for quantity, name in _COLOUR_OF.items() if name in table.variables}
+    return {quantity: files[quantity] for quantity in quantities}
 
 
 def _split(name: str, suffix: str) -> tuple[str, str]:
@@ -47,9 +51,8 @@ def _split(name: str, suffix: str) -> tuple[str, str]:
 def required(table: Table, name: str) -> NDArray[Any]:
     """Return the values of a variable; raises `FileFormatError` where the table was computed without it."""
     if name not in table.variables:
-        raise FileFormatError(
-            f"this format holds {name}, and the table has {', '.join(table.variables)} only"
-        )
+        known = ", ".join(table.variables)
+        raise FileFormatError(f"expected a table with {name}, which the format holds, got {known}")
     return table.values(name)
 
 

@@ -1,8 +1,8 @@
 """``npz``: every array of a table for NumPy, exact and quick to load.
 
 `numpy.load` gives axes and quantities by name (``R_s``, ``cos_theta``, …). Text is in arrays of no dimension:
-``nacreous:id``, ``nacreous:spec`` and the rest of the provenance, and ``nacreous:dims``, a JSON object with the
-axes of each array. The arrays are not compressed, and none is pickled.
+``nacreous:id``, ``nacreous:spec`` and the rest of the provenance, and ``nacreous:dims``, a JSON object with
+the axes of each array. The arrays are not compressed, and none is pickled.
 """
 
 import json

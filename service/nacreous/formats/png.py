@@ -12,7 +12,7 @@ import numpy as np
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
 from nacreous.formats.contents import PREFIX, Contents, provenance_of
-from nacreous.formats.lookup import lookup_attributes, lookup_files, lookup_rows, required
+from nacreous.formats.lookup import colour_quantities, lookup_attributes, lookup_files, lookup_rows, required
 from nacreous.formats.srgb import encoded, out_of_gamut, rec709
 from nacreous.tables.table import Table
 
@@ -26,7 +26,7 @@ _PERCEPTUAL = b"\x00"
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write the colours of `table` and return the files; raises `FileFormatError`."""
-    files = lookup_files(table, path, SUFFIX)
+    files = lookup_files(path, SUFFIX, colour_quantities(table))
     with replacing(*files.values()) as temporaries:
         for quantity, temporary in zip(files, temporaries, strict=True):
             _write_picture(table, quantity, temporary)

@@ -1,9 +1,10 @@
 """Every format that Nacreous writes, in one immutable registry.
 
-A new format is a module with `SUFFIX`, `write` and `read`, a name in `nacreous.formats.names`, and a line here.
+A new format is a module with `SUFFIX`, `write` and `read`, a name in `nacreous.formats.names`, and an entry
+here.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -14,6 +15,9 @@ from nacreous.formats import csv, exr, netcdf, npz, png, spectral_exr
 from nacreous.formats.contents import Contents
 from nacreous.formats.names import FormatName
 from nacreous.optics.value import did_you_mean, shown
+from nacreous.tables.axes import wavelength_values_nm
+from nacreous.tables.colour import has_colour
+from nacreous.tables.spec import Spec
 from nacreous.tables.table import Part, Table
 
 if TYPE_CHECKING:
@@ -35,8 +39,10 @@ class Format:
     name : FormatName
     suffix : str
         What the file's name ends in.
-    parts : frozenset of Part
-        What of a table the file holds.
+    holds : frozenset of Part
+        What of a table the file holds, where the table has it.
+    needs : frozenset of Part
+        Without which there is no such file.
     media_type : str
     advice : str
         For whom it is, in one line.
@@ -48,7 +54,8 @@ class Format:
 
     name: FormatName
     suffix: str
-    parts: frozenset[Part]
+    holds: frozenset[Part]
+    needs: frozenset[Part]
     media_type: str
     advice: str
     write: Callable[[Table, Path], tuple[Path, ...]]
@@ -60,6 +67,7 @@ _ALL = (
         FormatName.EXR,
         exr.SUFFIX,
         _COLOUR,
+        _COLOUR,
         "image/x-exr",
         "lookup texture for any renderer: linear colour, float32",
         exr.write,
@@ -69,6 +77,7 @@ _ALL = (
         FormatName.SPECTRAL_EXR,
         spectral_exr.SUFFIX,
         _BOTH,
+        _SPECTRUM,
         "image/x-exr",
         "spectra for spectral renderers; more channels than Blender can load",
         spectral_exr.write,
@@ -78,6 +87,7 @@ _ALL = (
         FormatName.NPZ,
         npz.SUFFIX,
         _BOTH,
+        _SPECTRUM,
         "application/x-npz",
         "every array of the table for NumPy",
         npz.write,
@@ -87,6 +97,7 @@ _ALL = (
         FormatName.NETCDF,
         netcdf.SUFFIX,
         _BOTH,
+        _SPECTRUM,
         "application/x-netcdf",
         "the table with units for xarray and other scientific programs",
         netcdf.write,
@@ -96,6 +107,7 @@ _ALL = (
         FormatName.CSV,
         csv.SUFFIX,
         _SPECTRUM,
+        _SPECTRUM,
         "text/csv",
         "the spectra, one row a sample, for spreadsheets",
         csv.write,
@@ -104,6 +116,7 @@ _ALL = (
     Format(
         FormatName.PNG,
         png.SUFFIX,
+        _COLOUR,
         _COLOUR,
         "image/png",
         "a picture of the lookup texture to look at, 8-bit sRGB",
@@ -134,9 +147,11 @@ def format_of(path: Path) -> Format:
     return max(fitting, key=lambda entry: len(entry.suffix))
 
 
-def parts_of(formats: Iterable[Format]) -> frozenset[Part]:
-    """Return the parts of a table that any of the formats holds."""
-    return frozenset[Part]().union(*(entry.parts for entry in formats))
+def parts_of(formats: Sequence[Format], spec: Spec) -> frozenset[Part]:
+    """Return what has to be computed of `spec`: all that the formats hold, or need where it has no colour."""
+    coloured = has_colour(wavelength_values_nm(spec.table.wavelength_nm))
+    parts = [entry.holds if coloured else entry.needs for entry in formats]
+    return frozenset[Part]().union(*parts)
 
 
 def write(

@@ -1,13 +1,14 @@
 """``spectral-exr``: the spectrum of every texel in the layout of Fichet, Pacanowski and Wilkie.
 
 A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral Images", JCGT 10(3), 2021. Unpolarised
-reflectance (R_s + R_p) / 2 is in one channel a wavelength, ``T.550,000000nm``, with the decimal comma that the
-layout asks for. R, G and B are the preview; a table in XYZ has none. Where the substrate transmits, the
-transmittance is in a second file, ``film.transmission.spectral.exr``. Axes are those of the lookup texture.
+reflectance (R_s + R_p) / 2 is in one channel a wavelength, ``T.550,000000nm``, with the decimal comma that
+the layout asks for. R, G and B are the preview; a table in XYZ, or beyond the visible, has none. Where the
+substrate transmits, and always beyond the visible, the transmittance is in a second file,
+``film.transmission.spectral.exr``. Axes are those of the lookup texture.
 
-It is for spectral renderers and for analysis. **Blender 4.5 and 5.2 crash on a part of more than 24 channels**:
-give them the file of the `exr` format. An EXR sorts its channels by name, so wavelengths of 1,000 nm and more
-come before the shorter ones: go by the names, not by the order.
+It is for spectral renderers and for analysis. **Blender 4.5 and 5.2 crash on a part of more than 24
+channels**: give them the file of the `exr` format. An EXR sorts its channels by name, so wavelengths of
+1,000 nm and more come before the shorter ones: go by the names, not by the order.
 """
 
 from pathlib import Path
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
 from nacreous.formats.contents import Contents, provenance_of
-from nacreous.formats.lookup import lookup_attributes, lookup_files, lookup_rows, required
+from nacreous.formats.lookup import colour_quantities, lookup_attributes, lookup_files, lookup_rows, required
 from nacreous.formats.openexr import read_part, write_part
 from nacreous.tables.table import Table
 
@@ -33,13 +34,21 @@ _LAYER = "T."
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write the unpolarised spectra of `table` and return the files; raises `FileFormatError`."""
-    files = lookup_files(table, path, SUFFIX)
+    files = lookup_files(path, SUFFIX, _quantities(table))
     with replacing(*files.values()) as temporaries:
         for quantity, temporary in zip(files, temporaries, strict=True):
-            layout = {"spectralLayoutVersion": "1.0", "EV": 0.0}
+            layout: dict[str, str | float] = {"spectralLayoutVersion": "1.0", "EV": 0.0}
             attributes = {**lookup_attributes(table, quantity), **layout}
             write_part(temporary, _spectrum(table, quantity) | _preview(table, quantity), attributes)
     return tuple(files.values())
+
+
+def _quantities(table: Table) -> tuple[str, ...]:
+    return colour_quantities(table) if _has_colours(table) else ("R", "T")
+
+
+def _has_colours(table: Table) -> bool:
+    return "R_rgb" in table.variables
 
 
 def _spectrum(table: Table, quantity: str) -> dict[str, NDArray[np.float32]]:
@@ -54,7 +63,7 @@ def _channel(wavelength_nm: float) -> str:
 
 
 def _preview(table: Table, quantity: str) -> dict[str, NDArray[np.float32]]:
-    if table.spec.colour.space == "XYZ":
+    if table.spec.colour.space == "XYZ" or not _has_colours(table):
         return {}
     rows = lookup_rows(required(table, f"{quantity}_rgb"))  # (H, W, 3)
     return {name: rows[..., channel] for channel, name in enumerate("RGB")}

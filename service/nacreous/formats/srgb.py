@@ -3,19 +3,17 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from nacreous.optics.colour import colour_system
 from nacreous.tables.spec import ColourSpec
 
 __all__ = ["encoded", "out_of_gamut", "rec709"]
-
-_NAMES = {"ACEScg": "ACEScg", "Rec.2020": "ITU-R BT.2020"}
-"""Spaces other than Rec.709 and XYZ, as colour-science calls them."""
 
 
 def encoded(linear: NDArray[np.floating]) -> NDArray[np.uint8]:
     """Return linear Rec.709 colours as sRGB bytes, clipped to the gamut (IEC 61966-2-1:1999)."""
     value = np.clip(linear, 0, 1)
     curve = np.where(value <= 0.0031308, 12.92 * value, 1.055 * value ** (1 / 2.4) - 0.055)
-    return np.rint(255 * curve).astype(np.uint8)
+    return np.asarray(np.rint(255 * curve), np.uint8)
 
 
 def out_of_gamut(linear: NDArray[np.floating]) -> float:
@@ -27,19 +25,10 @@ def out_of_gamut(linear: NDArray[np.floating]) -> float:
 
 def rec709(colours: NDArray[np.floating], colour: ColourSpec) -> NDArray[np.floating]:
     """Return table colours, shape (…, 3), in linear Rec.709; those of a table in Rec.709 are as they were."""
-    return colours if colour.space == "Rec.709" else colours @ _to_rec709(colour).T
-
-
-def _to_rec709(colour: ColourSpec) -> NDArray[np.float64]:
-    """Return the matrix from the table's space, Bradford-adapted to the white of Rec.709."""
-    import colour as science
-
-    target = science.RGB_COLOURSPACES["ITU-R BT.709"]
-    if colour.space == "XYZ":
-        white = science.CCS_ILLUMINANTS[colour.observer][colour.illuminant]
-        adapted = science.adaptation.matrix_chromatic_adaptation_VonKries(
-            science.xy_to_XYZ(white), science.xy_to_XYZ(target.whitepoint), "Bradford"
-        )
-        return np.asarray(target.matrix_XYZ_to_RGB @ adapted)
-    source = science.RGB_COLOURSPACES[_NAMES[colour.space]]
-    return np.asarray(science.matrix_RGB_to_RGB(source, target, "Bradford"))
+    if colour.space == "Rec.709":
+        return colours
+    table, screen = (
+        colour_system(colour.illuminant, colour.observer, space) for space in (colour.space, "Rec.709")
+    )
+    to_screen = screen.from_xyz @ np.linalg.inv(table.from_xyz)  # both start at the illuminant's XYZ
+    return np.asarray(colours @ to_screen.T)

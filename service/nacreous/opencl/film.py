@@ -69,7 +69,7 @@ def spectral_rows(
         computed = run_tile(
             device,
             kernel,
-            (*buffers.arguments, np.int32(tile.origin)),
+            (*buffers.arguments, *tile.bounds),
             (buffers.stride // lanes, tile.rows),
             GROUPS[device.info.kind],
             [((tile.rows, buffers.stride), precision.dtype)] * len(names),

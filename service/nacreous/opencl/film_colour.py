@@ -1,4 +1,4 @@
-"""Linear colour of a film over thickness scale and angle, integrated on the device: kernels/film_colour.cl."""
+"""Linear colour of a film over thickness scale and angle: the host of kernels/film_colour.cl."""
 
 from enum import Enum
 
@@ -59,7 +59,7 @@ def film_colour(
         (values,) = run_tile(
             device,
             kernel,
-            (*buffers.arguments, np.int32(tile.origin), weights),
+            (*buffers.arguments, *tile.bounds, weights),
             (tile.rows,),
             _GROUPS[device.info.kind],
             [((tile.rows, 3), precision.dtype)],

@@ -71,7 +71,7 @@ class FilmProblem:
     def layer_evaluations_a_row(self) -> int:
         """Layers crossed for one row, with every variant: what a launch's time goes by."""
         variants, layers = self.thickness_nm.shape[1:]
-        return variants * (layers + 1) * len(self.wavelength_nm)
+        return int(variants * (layers + 1) * len(self.wavelength_nm))
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +92,7 @@ def film_buffers(device: Device, problem: FilmProblem, precision: Precision, lan
     segments = np.array([(s.first, s.stop, s.repeat) for s in problem.segments], np.int32)
     variants, layers = problem.thickness_nm.shape[1:]
     counts = (len(segments), layers, stride)
-    grid = (variants, problem.shape[1], problem.rows)
+    grid = (variants, problem.shape[1])
     arguments = (
         upload(device, _media(padded.index), dtype),
         upload(device, _critical_mu2(padded.index, lanes), dtype),
@@ -134,7 +134,8 @@ def _critical_mu2(index: NDArray[np.complex128], lanes: int) -> NDArray[np.float
     n, n0 = index[1:], index[0].real
     critical = _CRITICAL_MARGIN - (n.real - n0) * (n.real + n0) / n0**2
     critical = np.where(n.imag > 0, 2.0, critical)
-    return critical.reshape(len(n), -1, lanes).max(axis=-1)
+    of_blocks: NDArray[np.float64] = critical.reshape(len(n), -1, lanes).max(axis=-1)
+    return of_blocks
 
 
 def upload(device: Device, array: NDArray[Any], dtype: Any) -> Any:  # noqa: ANN401 - pyopencl is untyped

@@ -33,8 +33,15 @@ class Tile:
     origin: int
     rows: int
 
+    @property
+    def bounds(self) -> tuple[np.int32, np.int32]:
+        """First row and the row after the last, as the kernels take them."""
+        return np.int32(self.origin), np.int32(self.origin + self.rows)
 
-def row_tiles(rows: int, evaluations_a_row: int, bytes_a_row: int, observer: Observer | None) -> Iterator[Tile]:
+
+def row_tiles(
+    rows: int, evaluations_a_row: int, bytes_a_row: int, observer: Observer | None
+) -> Iterator[Tile]:
     """Yield tiles that cover all rows, each sized by how long the one before took.
 
     Parameters

@@ -71,12 +71,13 @@ class ColourSystem:
     def weights(self, wavelength_nm: FloatArray) -> FloatArray:
         """Weights of shape (3, L): the colour of a spectrum R, shape (L,), is ``weights @ R``.
 
-        The trapezoid rule over the wavelengths, which ascend. Each component is normalised, so that a spectrum
-        of 1 is white on every grid.
+        The trapezoid rule over the wavelengths, which ascend. Each component is normalised, so that a
+        spectrum of 1 is white on every grid.
         """
         weights = self.from_xyz @ _xyz_weights(self, wavelength_nm)
         total = self.white if self.channels == ("X", "Y", "Z") else np.ones(3)
-        return weights * (total / weights.sum(axis=1))[:, None]
+        normalised: FloatArray = weights * (total / weights.sum(axis=1))[:, None]
+        return normalised
 
     def to_xyz(self, colour: FloatArray) -> FloatArray:
         """XYZ relative to `white` of colours in the space, shape (..., 3) both."""
@@ -112,7 +113,7 @@ def colour_system(illuminant: str, observer: str, space: str) -> ColourSystem:
     return replace(
         xyz,
         from_xyz=rgb_from_xyz @ _adaptation(source_white, white),
-        xyz_from_space=np.linalg.inv(rgb_from_xyz),
+        xyz_from_space=np.asarray(np.linalg.inv(rgb_from_xyz), np.float64),
         white=white,
         channels=("R", "G", "B"),
     )
@@ -133,7 +134,8 @@ def _xyz_weights(system: ColourSystem, wavelength_nm: FloatArray) -> FloatArray:
     )
     power = np.interp(wavelength_nm, system.illuminant_nm, system.illuminant, left=0, right=0)
     weights = observer * power * _trapezoid_steps(wavelength_nm)  # (3, L)
-    return weights / weights[1].sum()
+    normalised: FloatArray = weights / weights[1].sum()
+    return normalised
 
 
 def _trapezoid_steps(x: FloatArray) -> FloatArray:
@@ -150,9 +152,11 @@ def _rgb_from_xyz(space: _Space) -> FloatArray:
     """From XYZ to linear RGB: the columns of the inverse are the primaries, scaled to sum to the white."""
     primaries = np.stack([_xyz_of(xy) for xy in space.primaries], axis=1)
     scale = np.linalg.solve(primaries, _xyz_of(space.white))
-    return np.linalg.inv(primaries * scale)
+    matrix: FloatArray = np.linalg.inv(primaries * scale)
+    return matrix
 
 
 def _adaptation(source: FloatArray, target: FloatArray) -> FloatArray:
     gain = (_BRADFORD @ target) / (_BRADFORD @ source)
-    return np.linalg.inv(_BRADFORD) @ (gain[:, None] * _BRADFORD)
+    matrix: FloatArray = np.linalg.inv(_BRADFORD) @ (gain[:, None] * _BRADFORD)
+    return matrix

@@ -16,18 +16,28 @@ def delta_e_2000(first: FloatArray, second: FloatArray) -> FloatArray:
     """
     chroma_mean = (np.hypot(first[..., 1], first[..., 2]) + np.hypot(second[..., 1], second[..., 2])) / 2
     stretch = 1.5 - 0.5 * _seventh(chroma_mean)
-    L1, C1, h1 = _lightness_chroma_hue(first, stretch)
-    L2, C2, h2 = _lightness_chroma_hue(second, stretch)
-    L, C, h = (L1 + L2) / 2, (C1 + C2) / 2, _mean_hue(h1, h2, C1 * C2)
-    dH = 2 * np.sqrt(C1 * C2) * np.sin(_hue_difference(h1, h2, C1 * C2) / 2)
-    t = 1 - 0.17 * np.cos(h - _deg(30)) + 0.24 * np.cos(2 * h)
-    t += 0.32 * np.cos(3 * h + _deg(6)) - 0.20 * np.cos(4 * h - _deg(63))
-    lightness = (L2 - L1) / (1 + 0.015 * (L - 50) ** 2 / np.sqrt(20 + (L - 50) ** 2))
-    chroma = (C2 - C1) / (1 + 0.045 * C)
-    hue = dH / (1 + 0.015 * C * t)
-    rotation = -np.sin(2 * _deg(30) * np.exp(-(((np.degrees(h) - 275) / 25) ** 2))) * 2 * _seventh(C)
-    squared: FloatArray = lightness**2 + chroma**2 + hue**2 + rotation * chroma * hue
+    lightness1, chroma1, hue1 = _lightness_chroma_hue(first, stretch)
+    lightness2, chroma2, hue2 = _lightness_chroma_hue(second, stretch)
+    product = chroma1 * chroma2
+    lightness, chroma, hue = (
+        (lightness1 + lightness2) / 2,
+        (chroma1 + chroma2) / 2,
+        _mean_hue(hue1, hue2, product),
+    )
+    t = 1 - 0.17 * np.cos(hue - _deg(30)) + 0.24 * np.cos(2 * hue)
+    t += 0.32 * np.cos(3 * hue + _deg(6)) - 0.20 * np.cos(4 * hue - _deg(63))
+    off_middle = (lightness - 50) ** 2
+    d_lightness = (lightness2 - lightness1) / (1 + 0.015 * off_middle / np.sqrt(20 + off_middle))
+    d_chroma = (chroma2 - chroma1) / (1 + 0.045 * chroma)
+    d_hue = 2 * np.sqrt(product) * np.sin(_hue_difference(hue1, hue2, product) / 2) / (1 + 0.015 * chroma * t)
+    squared = d_lightness**2 + d_chroma**2 + d_hue**2 + _rotation(chroma, hue) * d_chroma * d_hue
     return np.sqrt(np.maximum(squared, 0))
+
+
+def _rotation(chroma: FloatArray, hue: FloatArray) -> FloatArray:
+    """Interaction of chroma and hue in the blues (eq 19 to 21)."""
+    angle = _deg(30) * np.exp(-(((np.degrees(hue) - 275) / 25) ** 2))
+    return -np.sin(2 * angle) * 2 * _seventh(chroma)
 
 
 def _deg(degrees: float) -> float:

@@ -13,7 +13,7 @@ from nacreous.optics.material import Material
 from nacreous.optics.refractive_index import refractive_index
 from nacreous.optics.value import REFUSED, AsTuple, Number, StrictModel, form_tag, refusal
 
-__all__ = ["MAX_LAYERS", "Group", "GroupSpan", "Layer", "SampledStack", "Stack", "sample_stack"]
+__all__ = ["MAX_LAYERS", "Group", "GroupSpan", "Layer", "SampledStack", "Stack", "all_layers", "sample_stack"]
 
 MAX_LAYERS = 64
 """Layers of a stack, the members of a group counted once."""
@@ -140,6 +140,11 @@ class Stack(StrictModel):
             remedy = "write a periodic part as a group with repeat"
             raise refusal(f"1 to {MAX_LAYERS} layers", f"{count} layers", remedy)
         return layers
+
+
+def all_layers(stack: Stack) -> tuple[Layer, ...]:
+    """Return the layers from the incident medium inwards, a group's members once."""
+    return tuple(layer for entry in stack.layers for layer in _members(entry))
 
 
 def _members(entry: Layer | Group) -> tuple[Layer, ...]:

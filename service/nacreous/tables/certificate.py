@@ -1,8 +1,8 @@
 """What a table's numbers are worth: its errors, measured between the texels.
 
-A reader of the table interpolates it linearly. The certificate does the same at the middle of cells, where a
-linear interpolation is at its worst, and compares with the film itself in double precision there. The cells are
-spread over the whole table; the texels at their corners are computed as the table's own are.
+A reader of the table interpolates it linearly. The certificate does the same at the middle of cells, where
+linear interpolation is at its worst, and compares with the film itself in double precision there. The cells
+are spread over the whole table; the texels at their corners are computed as the table's own are.
 """
 
 import json
@@ -18,14 +18,26 @@ from nacreous.optics.delta_e import delta_e_2000
 from nacreous.tables.film import Grid
 from nacreous.tables.solver import FilmSolver
 
-__all__ = ["Cells", "Certificate", "Colouring", "certify", "colour_cells", "colour_differences"]
+__all__ = [
+    "Cells",
+    "Certificate",
+    "Colouring",
+    "certify",
+    "colour_cells",
+    "colour_differences",
+    "short_of_grazing",
+]
 
 FloatArray = NDArray[np.float64]
 
+GRAZING = 0.01
+"""Cosine below which colour differences are stated apart: within 0.6 degrees of grazing, where a diffuse
+surface sends 1e-4 of its light, a film between equal media has resonances as narrow as one likes."""
 _MOST_SPECTRAL_CELLS = (8, 64, 32)
 """Cells over thickness scale, angle and wavelength at which R and T are compared."""
 _MOST_COLOUR_CELLS = (32, 128)
 """Cells over thickness scale and angle at which colours are compared."""
+_MOST_GRAZING_CELLS = 8
 _MOST_NUMBERS = 4_000_000
 """Spectral values held at a time while exact colours are integrated."""
 _GAMUT_ROUNDING = 1e-5
@@ -48,7 +60,10 @@ class Certificate:
     nonfinite : int
         Values that are not finite; a table with any is refused before it gets a certificate.
     delta_e_max, delta_e_p99 : float or None
-        CIEDE2000 of interpolated and exact colour; None where the wavelengths span no colour.
+        CIEDE2000 of interpolated and exact colour, short of grazing incidence (cosine 0.01); None where the
+        wavelengths span no colour.
+    delta_e_grazing : float or None
+        The largest difference in the cells from there to grazing; None where there are none.
     out_of_gamut : float or None
         Share of texels with a component below 0 or above 1.
     """
@@ -61,6 +76,7 @@ class Certificate:
     nonfinite: int
     delta_e_max: float | None
     delta_e_p99: float | None
+    delta_e_grazing: float | None
     out_of_gamut: float | None
 
     def to_json(self) -> str:
@@ -88,11 +104,15 @@ class Cells:
 
     @classmethod
     def along(cls, axis: FloatArray, most: int) -> Self:
-        """At most `most` cells of an axis, evenly spread, both ends' among them; a single value is one cell."""
+        """At most `most` cells of an axis, evenly spread, the outermost included; one value is one cell."""
         if axis.size == 1:
             return cls(axis, axis)
         first = np.unique(np.linspace(0, axis.size - 2, min(most, axis.size - 1)).round().astype(int))
         return cls(axis[first], axis[first + 1])
+
+    def where(self, chosen: NDArray[np.bool_]) -> Self:
+        """Those of the cells that a mask of shape (C,) chooses."""
+        return type(self)(self.lower[chosen], self.upper[chosen])
 
     @property
     def corners(self) -> FloatArray:
@@ -128,15 +148,19 @@ def certify(solver: FilmSolver, grid: Grid, colouring: Colouring | None) -> Cert
 
 
 def colour_cells(grid: Grid) -> tuple[Cells, Cells]:
-    """The cells over thickness scale and angle at which a colour table is measured."""
+    """Choose the cells over thickness scale and angle at which a colour table is measured."""
     scales = Cells.along(grid.thickness_scale, _MOST_COLOUR_CELLS[0])
-    return scales, Cells.along(grid.cos_theta, _MOST_COLOUR_CELLS[1])
+    return scales, short_of_grazing(Cells.along(grid.cos_theta, _MOST_COLOUR_CELLS[1]))
 
 
-def colour_differences(
-    solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring
-) -> FloatArray:
-    """CIEDE2000 of interpolated and exact colour amid cells, of R and, where there is one, T: (sides, S, A)."""
+def short_of_grazing(angles: Cells) -> Cells:
+    """Return the cells whose middle lies above `GRAZING`; all of them where none does."""
+    above = angles.middles >= GRAZING
+    return angles.where(above) if above.any() else angles
+
+
+def colour_differences(solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring) -> FloatArray:
+    """CIEDE2000 of interpolated and exact colour amid cells, of R and any T: (sides, S, A)."""
     return _differences(solver, scales, angles, colouring)[0]
 
 
@@ -149,17 +173,31 @@ def _differences(
     return delta_e_2000(_lab(between, colouring.system), _lab(exact, colouring.system)), texels
 
 
-_NO_COLOUR: dict[str, float | None] = {"delta_e_max": None, "delta_e_p99": None, "out_of_gamut": None}
+_NO_COLOUR: dict[str, float | None] = dict.fromkeys(
+    ("delta_e_max", "delta_e_p99", "delta_e_grazing", "out_of_gamut")
+)
 
 
 def _colour_figures(solver: FilmSolver, grid: Grid, colouring: Colouring) -> dict[str, float | None]:
-    differences, texels = _differences(solver, *colour_cells(grid), colouring)
+    scales, angles = colour_cells(grid)
+    differences, texels = _differences(solver, scales, angles, colouring)
     outside = (texels < -_GAMUT_ROUNDING) | (texels > 1 + _GAMUT_ROUNDING)
     return {
         "delta_e_max": float(differences.max()),
         "delta_e_p99": float(np.quantile(differences, 0.99)),
+        "delta_e_grazing": _grazing_difference(solver, grid, colouring),
         "out_of_gamut": float(outside.any(axis=-1).mean()),
     }
+
+
+def _grazing_difference(solver: FilmSolver, grid: Grid, colouring: Colouring) -> float | None:
+    angles = Cells.along(grid.cos_theta, grid.cos_theta.size)
+    grazing = angles.where(angles.middles < GRAZING)
+    if grazing.lower.size in (0, angles.lower.size):
+        return None
+    few = grazing.where(np.arange(grazing.lower.size) < _MOST_GRAZING_CELLS)
+    scales = Cells.along(grid.thickness_scale, _MOST_COLOUR_CELLS[0])
+    return float(colour_differences(solver, scales, few, colouring).max())
 
 
 def _stacked(intensities: dict[str, NDArray[np.floating]]) -> FloatArray:
@@ -188,7 +226,10 @@ def _exact_colours(
     at_a_time = max(1, _MOST_NUMBERS // (thickness_scale.size * colouring.quadrature_nm.size))
     blocks = np.split(cos_theta, range(at_a_time, cos_theta.size, at_a_time))
     return np.concatenate(
-        [_block_colours(solver, Grid(thickness_scale, mu, colouring.quadrature_nm), colouring) for mu in blocks],
+        [
+            _block_colours(solver, Grid(thickness_scale, mu, colouring.quadrature_nm), colouring)
+            for mu in blocks
+        ],
         axis=2,
     )
 

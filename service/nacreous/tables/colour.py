@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from nacreous.errors import SpecError
 from nacreous.optics.colour import ColourSystem
-from nacreous.optics.stack import Stack
+from nacreous.optics.stack import Stack, all_layers
 from nacreous.tables.film import Grid, film_problem, optical_thickness_nm
 from nacreous.tables.thickness_spread import one_thickness
 
@@ -57,7 +57,7 @@ def quadrature_nm(
 
 def _optical_thickness_nm(stack: Stack, largest_scale: float) -> float:
     """Largest n d of the coherent layers together, every repeat counted, over the visible wavelengths."""
-    layers = sum(len(getattr(entry, "layers", (entry,))) for entry in stack.layers)
+    layers = len(all_layers(stack))
     grid = Grid(np.array([largest_scale]), np.ones(1), np.linspace(*VISIBLE_NM, 31))
     problem = film_problem(stack, one_thickness(layers), grid)
     return float(optical_thickness_nm(problem).sum(axis=0).max())

@@ -1,7 +1,7 @@
 """A spec's film as a problem for the kernels, and its R and T, checked.
 
-A film is solved in the precision asked for, and in double precision wherever a coherent phase is so large that
-single precision would lose it.
+A film is solved in the precision asked for, and in double precision wherever a coherent phase is so large
+that single precision would lose it.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,14 @@ from nacreous.opencl.tiles import Observer
 from nacreous.optics.stack import SampledStack, Stack, sample_stack
 from nacreous.tables.thickness_spread import ThicknessSpread
 
-__all__ = ["Grid", "checked_intensities", "film_problem", "optical_thickness_nm", "phase_precision", "segments"]
+__all__ = [
+    "Grid",
+    "checked_intensities",
+    "film_problem",
+    "optical_thickness_nm",
+    "phase_precision",
+    "segments",
+]
 
 FloatArray = NDArray[np.float64]
 
@@ -76,7 +83,7 @@ def segments(stack: SampledStack) -> tuple[Segment, ...]:
 
 
 def optical_thickness_nm(problem: FilmProblem) -> FloatArray:
-    """n d of each segment, all repeats together, at the largest scale: shape (segments, L); 0 for a thick layer."""
+    """Sum n d over each segment and its repeats, at the largest scale: (segments, L), 0 for a thick layer."""
     thickest = problem.thickness_nm.max(axis=(0, 1))  # (M,)
     depth = problem.index[1:-1].real * thickest[:, None]  # (M, L)
     return np.array([s.repeat * depth[s.first : s.stop].sum(axis=0) for s in problem.segments])
@@ -111,7 +118,7 @@ def checked_intensities(
 
 
 def check_range(name: str, values: NDArray[np.floating]) -> None:
-    """Raise `NumericalError` for a value that is not finite (counted before any clamp hides it) or not a ratio."""
+    """Raise `NumericalError` for values that are not finite, before a clamp can hide them, or no ratios."""
     least, most = float(values.min()), float(values.max())
     if not (least >= LEAST and most <= MOST):  # False for NaN, too
         bad = int(np.count_nonzero(~np.isfinite(values)))

@@ -8,7 +8,13 @@ from numpy.typing import NDArray
 
 from nacreous.errors import SpecError
 from nacreous.tables.axes import MAX_POINTS
-from nacreous.tables.certificate import Cells, Colouring, colour_cells, colour_differences
+from nacreous.tables.certificate import (
+    Cells,
+    Colouring,
+    colour_cells,
+    colour_differences,
+    short_of_grazing,
+)
 from nacreous.tables.film import Grid
 from nacreous.tables.solver import FilmSolver
 
@@ -16,18 +22,19 @@ __all__ = ["refined"]
 
 FloatArray = NDArray[np.float64]
 
-_SHARES = (0.2, 0.35, 0.5, 0.65, 0.8)
-"""Parts of the allowed difference that the angle axis may use up; the thickness axis has the rest."""
-_WIDEN = 1.05
-"""Growth of both axes while the two errors together still exceed what each was allowed."""
-_PROBE_SCALES, _PROBE_ANGLES, _PROBED_CELLS = 9, 33, 512
+_ALMOST = 0.95
+"""Part of the allowed difference that the thickness axis may use up, so that some is left for the angles."""
+_PROBE_ANGLES, _PROBED_CELLS = 17, 256
+"""Angles, and cells along the thickness axis, at which its error is measured by itself."""
+_GROWTHS = (1.0, 1.15, 1.4, 1.8, 2.5, 4.0)
+"""Factors on the thickness scales that hold by themselves; more of them leave more of the error to the angles."""
 
 
 def refined(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float) -> Grid:
     """Return the grid with as many angles and thickness scales as `delta_e` needs, the spec's own at least.
 
-    The two axes' errors are measured apart, the share of each is varied, and the smallest table among them is
-    widened until the whole of it holds. A refined axis is spaced as the spec's is.
+    For several numbers of thickness scales, the fewest angles are sought with which the whole table holds;
+    the smallest table of these wins. A refined axis is spaced as the spec's is.
 
     Raises
     ------
@@ -35,71 +42,54 @@ def refined(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float
         No grid of at most 65,536 points an axis is fine enough.
     """
 
-    angles, scales = min(
-        (_counts(solver, grid, colouring, delta_e, share) for share in _shares(grid)),
-        key=lambda counts: counts[0] * counts[1],
-    )
-    while not _holds(solver, _respaced(grid, angles, scales), colouring, delta_e):
-        angles, scales = _widened(angles), _widened(scales)
-    return _respaced(grid, angles, scales)
+    def fewest_angles(scales: int) -> int | None:
+        def error(angles: int) -> float:
+            cells = colour_cells(_respaced(grid, angles, scales))
+            return float(colour_differences(solver, *cells, colouring).max())
+
+        return _fewest(error, grid.cos_theta.size, delta_e)
+
+    best: tuple[int, int] | None = None
+    for scales in _scale_counts(solver, grid, colouring, delta_e):
+        angles = fewest_angles(scales)
+        if best is not None and (angles is None or angles * scales >= best[0] * best[1]):
+            break
+        best = best if angles is None else (angles, scales)
+    if best is None:
+        raise _unreachable(delta_e)
+    return _respaced(grid, *best)
 
 
-def _holds(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float) -> bool:
-    return bool(colour_differences(solver, *colour_cells(grid), colouring).max() <= delta_e)
-
-
-def _shares(grid: Grid) -> tuple[float, ...]:
-    return (1.0,) if grid.thickness_scale.size == 1 else _SHARES
-
-
-def _counts(
-    solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float, share: float
-) -> tuple[int, int]:
-    """Angles and scales that keep their shares of `delta_e`, each with the other axis at a few of its values."""
-
-    def angle_error(angles: int) -> float:
-        cells = Cells.along(_spaced(grid.cos_theta, angles), _PROBED_CELLS)
-        points = _points(grid.thickness_scale, _PROBE_SCALES)
-        return float(colour_differences(solver, points, cells, colouring).max())
-
-    def scale_error(scales: int) -> float:
-        cells = Cells.along(_spaced(grid.thickness_scale, scales), _PROBED_CELLS)
-        points = _points(grid.cos_theta, _PROBE_ANGLES)
-        return float(colour_differences(solver, cells, points, colouring).max())
-
-    angles = _fewest(angle_error, grid.cos_theta.size, share * delta_e)
+def _scale_counts(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float) -> tuple[int, ...]:
+    """Numbers of thickness scales worth trying: from those that hold at a few angles, upwards."""
     if grid.thickness_scale.size == 1:
-        return angles, 1
-    return angles, _fewest(scale_error, grid.thickness_scale.size, (1 - share) * delta_e)
+        return (1,)
+    values = _spaced(grid.cos_theta, min(_PROBE_ANGLES, grid.cos_theta.size))
+    angles = short_of_grazing(Cells(values, values))
+
+    def error(scales: int) -> float:
+        cells = Cells.along(_spaced(grid.thickness_scale, scales), _PROBED_CELLS)
+        return float(colour_differences(solver, cells, angles, colouring).max())
+
+    alone = _fewest(error, grid.thickness_scale.size, _ALMOST * delta_e)
+    if alone is None:
+        raise _unreachable(delta_e)
+    return tuple(round(alone * growth) for growth in _GROWTHS)
 
 
-def _fewest(error: Callable[[int], float], least: int, allowed: float) -> int:
-    """Smallest count from `least` on whose error is allowed: doubled until it is, then halved in."""
+def _fewest(error: Callable[[int], float], least: int, allowed: float) -> int | None:
+    """Smallest count from `least` on whose error is allowed: doubled until it is, then halved in; or None."""
     if error(least) <= allowed:
         return least
     low, high = least, 2 * least
     while error(high) > allowed:
         low, high = high, 2 * high
         if high > MAX_POINTS:
-            raise _unreachable(allowed)
-    while high - low > max(1, low // 64):
+            return None
+    while high - low > max(1, low // 32):
         middle = (low + high) // 2
         low, high = (low, middle) if error(middle) <= allowed else (middle, high)
     return high
-
-
-def _widened(count: int) -> int:
-    if count == 1:
-        return 1
-    wider = int(np.ceil(count * _WIDEN))
-    if wider > MAX_POINTS:
-        raise _unreachable(0)
-    return wider
-
-
-def _points(axis: FloatArray, most: int) -> Cells:
-    values = _spaced(axis, min(most, axis.size))
-    return Cells(values, values)
 
 
 def _spaced(axis: FloatArray, count: int) -> FloatArray:
@@ -114,6 +104,9 @@ def _respaced(grid: Grid, angles: int, scales: int) -> Grid:
 
 
 def _unreachable(allowed: float) -> SpecError:
-    got = f"{allowed:.2g} or less for one axis" if allowed else "less"
-    remedy = "allow a larger difference, or tabulate a smaller range of angles or thicknesses"
-    return SpecError("accuracy.delta_e", f"a difference that {MAX_POINTS:,} points an axis can keep", got, remedy)
+    return SpecError(
+        "accuracy.delta_e",
+        f"a difference that {MAX_POINTS:,} points an axis can keep",
+        f"{allowed:g}",
+        "allow a larger difference, or tabulate a smaller range of angles or thicknesses",
+    )

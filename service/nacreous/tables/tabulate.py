@@ -14,6 +14,7 @@ from nacreous.opencl.precision import Precision
 from nacreous.opencl.sources import kernels_hash
 from nacreous.opencl.tiles import Observer
 from nacreous.optics.colour import colour_system
+from nacreous.optics.stack import all_layers
 from nacreous.tables.axes import cos_theta_values, thickness_scale_values, wavelength_values_nm
 from nacreous.tables.certificate import Certificate, Colouring, certify
 from nacreous.tables.colour import VISIBLE_NM, has_colour, quadrature_nm
@@ -109,9 +110,9 @@ def _required(colouring: Colouring | None) -> Colouring:
 
 
 def _check_ellipsometry(spec: Spec) -> None:
-    """psi and Delta belong to one phase; an average of intensities has none."""
-    layers = [layer for entry in spec.stack.layers for layer in getattr(entry, "layers", (entry,))]
-    if spec.table.ellipsometry and any(not layer.coherent or layer.thickness_sigma_nm for layer in layers):
+    """Refuse psi and Delta of an average of intensities, which has no phase."""
+    averaged = any(not layer.coherent or layer.thickness_sigma_nm for layer in all_layers(spec.stack))
+    if spec.table.ellipsometry and averaged:
         raise SpecError(
             "table.ellipsometry",
             "a film of coherent layers without thickness_sigma_nm",
@@ -167,9 +168,7 @@ def _coords(grid: Grid, colouring: Colouring | None) -> dict[str, Variable]:
     return coords
 
 
-def _provenance(
-    spec: Spec, device: Device, solver: FilmSolver, certificate: Certificate
-) -> dict[str, str]:
+def _provenance(spec: Spec, device: Device, solver: FilmSolver, certificate: Certificate) -> dict[str, str]:
     return {
         "id": table_id(spec),
         "version": version("nacreous"),

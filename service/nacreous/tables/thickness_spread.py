@@ -1,9 +1,9 @@
 """A film whose thickness varies over its surface: the nodes that R and T are averaged over.
 
 Each layer's thickness is normally distributed, independently of the others; the members of a repeated group
-vary together. The average is the trapezoid rule under the normal density, with as many nodes as it takes: its
-error falls as exp(-(2 pi / step - w)^2 / 2) for a fringe of frequency w, so that the nodes grow with the number
-of fringes within the spread (Gauss-Hermite nodes grow with its square).
+vary together. The average is the trapezoid rule under the normal density, with as many nodes as it takes:
+its error falls as exp(-(2 pi / step - w)^2 / 2) for a fringe of frequency w, so that the nodes grow with the
+number of fringes within the spread (Gauss-Hermite nodes grow with its square).
 """
 
 from collections.abc import Callable
@@ -109,7 +109,7 @@ def _spread(sigma_nm: FloatArray, counts: NDArray[np.int_]) -> ThicknessSpread:
 
 
 def _nodes(count: int) -> tuple[FloatArray, FloatArray]:
-    """Equidistant nodes in standard deviations, within reach, and weights of sum 1; the mean alone for one."""
+    """Equidistant nodes in standard deviations and weights of sum 1; one node is the mean."""
     nodes = np.linspace(-_REACH, _REACH, count) if count > 1 else np.zeros(1)
     weights = np.exp(-(nodes**2) / 2)
     return nodes, weights / weights.sum()

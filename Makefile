@@ -1,0 +1,76 @@
+# The few verbs, the same everywhere. Each installs what it needs into a virtual environment of this folder and
+# is quick the second time. PYTHON chooses the interpreter, 3.11 or later; PRESET what `make run` shows.
+
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+PRESET ?= anodised-titanium
+# What the benchmark compares with; bench-light leaves out PyTorch, which brings gigabytes for GPUs along.
+BENCH_GROUP ?= bench
+
+VENV := .venv
+BENCH_VENV := .venv-bench
+BIN := $(VENV)/bin
+PIP_INSTALL := -m pip --disable-pip-version-check --no-input install --quiet
+
+.PHONY: help run test check bench docs clean
+.DELETE_ON_ERROR:
+
+help:
+	@echo 'make run     tabulate a preset to EXR and draw it, into out/'
+	@echo 'make test    run all tests'
+	@echo 'make check   look at style, types and layers'
+	@echo 'make docs    run what the documentation shows, make its pictures anew'
+	@echo 'make bench   measure against other programs, write docs/benchmarks.md'
+	@echo 'make clean   remove what the others made'
+
+run: $(VENV)/.installed
+	@echo 'Lookup texture, linear colour over angle and thickness:'
+	@$(BIN)/nacreous tabulate $(PRESET) --format exr -o out
+	@echo 'Picture of it:'
+	@$(BIN)/nacreous preview $(PRESET) -o out/$(subst /,-,$(PRESET)).png
+
+test: $(VENV)/.group-test
+	$(BIN)/python -m pytest
+
+check: $(VENV)/.group-check
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-logo
+
+docs: $(VENV)/.group-test
+	$(BIN)/python -m pytest tests/test_documentation.py
+	$(BIN)/python docs/make_images.py
+
+bench: $(BENCH_VENV)/.group-$(BENCH_GROUP)
+	PYTHONPATH=tests $(BENCH_VENV)/bin/python -m bench
+
+clean:
+	rm -rf $(VENV) $(BENCH_VENV) out build dist .hypothesis .*_cache
+
+# ---- environments: a stamp for each step, renewed when pyproject.toml changes ------------------------------
+
+# Debian cuts the part of Python that makes environments out into a package of its own.
+$(VENV)/.made $(BENCH_VENV)/.made:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	    { echo 'expected Python 3.11 or later, got $(PYTHON); choose one with PYTHON=...' >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || \
+	    { test "$$(id -u)" = 0 && apt-get -qq update && apt-get -qq --yes install python3-venv; } || \
+	    { echo 'Python cannot make environments; on Debian, install the package python3-venv' >&2; exit 1; }
+	@$(PYTHON) -m venv --clear $(@D)
+	@$(@D)/bin/python $(PIP_INSTALL) --upgrade 'pip>=25.1'
+	@touch $@
+
+$(VENV)/.installed $(BENCH_VENV)/.installed: %/.installed: %/.made pyproject.toml
+	@echo 'Installing Nacreous into $* ...'
+	@$*/bin/python $(PIP_INSTALL) --editable .
+	@touch $@
+
+$(VENV)/.group-%: $(VENV)/.installed
+	@echo 'Installing what `$*` needs into $(VENV) ...'
+	@$(BIN)/python $(PIP_INSTALL) --group $*
+	@touch $@
+
+$(BENCH_VENV)/.group-%: $(BENCH_VENV)/.installed
+	@echo 'Installing what the benchmark compares with into $(BENCH_VENV) ...'
+	@$(BENCH_VENV)/bin/python $(PIP_INSTALL) --group $*
+	@touch $@

@@ -1,0 +1,141 @@
+"""No fault leaves half a file: real processes are killed, real writes fail."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from nacreous.errors import FileFormatError
+from nacreous.formats.atomic import replacing
+from nacreous.formats.registry import FORMATS
+from nacreous.formats.verify import verify
+from nacreous.tables.table import Table
+
+
+def test_replaces_a_file_only_when_the_new_one_is_complete(tmp_path: Path) -> None:
+    """Until the end of the block a reader sees the old file, and afterwards the new one."""
+    path = tmp_path / "film.exr"
+    path.write_text("old")
+    with replacing(path) as (temporary,):
+        temporary.write_text("new")
+        assert path.read_text() == "old"
+    assert path.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("failure", [ValueError, KeyboardInterrupt, SystemExit])
+def test_what_fails_changes_nothing(tmp_path: Path, failure: type[BaseException]) -> None:
+    """Errors and interrupts alike: the old file stays, and no other is left."""
+    old, other = tmp_path / "film.exr", tmp_path / "film.transmission.exr"
+    old.write_text("old")
+    with pytest.raises(failure), replacing(old, other) as (first, _):
+        first.write_text("half")
+        raise failure
+    assert old.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [old]
+
+
+def test_a_folder_that_is_not_there_is_one_message(tmp_path: Path) -> None:
+    """The message names the file and the reason."""
+    path = tmp_path / "absent" / "film.txt"
+    with pytest.raises(FileFormatError, match=r"absent/film\.txt cannot be written: No such"):
+        with replacing(path) as (temporary,):
+            temporary.write_text("new")
+
+
+def test_a_name_as_long_as_can_be_is_written(tmp_path: Path) -> None:
+    """255 bytes, NAME_MAX of Linux's file systems: the temporary name may not be longer than the final one."""
+    path = tmp_path / f"{'n' * 251}.exr"
+    with replacing(path) as (temporary,):
+        temporary.write_text("new")
+    assert path.exists()
+
+
+_HALF_WRITTEN = """
+import sys
+from pathlib import Path
+from nacreous.formats.atomic import replacing
+with replacing(Path(sys.argv[1])) as (temporary,):
+    temporary.write_bytes(b"half")
+    print("half", flush=True)
+    sys.stdin.read()
+"""
+
+
+def test_a_process_killed_in_mid_write_leaves_the_old_file(tmp_path: Path) -> None:
+    """SIGKILL cannot be caught; what is left has a hidden name."""
+    path = tmp_path / "film.exr"
+    path.write_text("old")
+    child = subprocess.Popen(
+        [sys.executable, "-c", _HALF_WRITTEN, str(path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+    with child:
+        assert child.stdout is not None
+        assert child.stdout.readline() == b"half\n"
+        child.kill()
+    assert path.read_text() == "old"
+    (left,) = (file for file in tmp_path.iterdir() if file != path)
+    assert left.name.startswith(".nacreous-")
+
+
+_WRITES_FOR_EVER = """
+import pickle, sys
+from pathlib import Path
+from nacreous.formats.registry import write
+from nacreous.tables.table import Table
+import xarray
+table = Table.from_xarray(xarray.load_dataset(sys.argv[1], engine="h5netcdf"))
+while True:
+    write(table, sys.argv[2])
+    print("written", flush=True)
+"""
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_writer_killed_at_any_moment_leaves_a_complete_file(
+    table: Table, tmp_path: Path, name: str
+) -> None:
+    """The file is replaced again and again; at every kill it is one that `verify` finds good."""
+    source = tmp_path / "source.nc"
+    FORMATS["netcdf"].write(table, source)
+    path = tmp_path / f"film{FORMATS[name].suffix}"
+    for rounds in (1, 3):
+        command = [sys.executable, "-c", _WRITES_FOR_EVER, str(source), str(path)]
+        with subprocess.Popen(command, stdout=subprocess.PIPE) as child:
+            assert child.stdout is not None
+            for _ in range(rounds):
+                assert child.stdout.readline() == b"written\n"
+            child.send_signal(signal.SIGKILL)
+        assert verify(path).problems == ()
+
+
+_WRITES_TOO_MUCH = """
+import resource, sys
+from pathlib import Path
+from nacreous.errors import FileFormatError
+from nacreous.formats.registry import FORMATS
+from nacreous.tables.table import Table
+import xarray
+table = Table.from_xarray(xarray.load_dataset(sys.argv[1], engine="h5netcdf"))
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[3]), resource.RLIM_INFINITY))
+for name, chosen in FORMATS.items():
+    try:
+        chosen.write(table, Path(sys.argv[2], "film" + chosen.suffix))
+    except FileFormatError as error:
+        print(name, str(error).rpartition(": ")[2], sep="\t")
+"""
+
+
+@pytest.mark.parametrize("limit", [64, 2000])
+def test_a_write_that_fails_leaves_nothing(table: Table, tmp_path: Path, limit: int) -> None:
+    """The kernel refuses what goes beyond RLIMIT_FSIZE with EFBIG, as a full disk does with ENOSPC."""
+    source, folder = tmp_path / "source.nc", tmp_path / "out"
+    FORMATS["netcdf"].write(table, source)
+    folder.mkdir()
+    command = [sys.executable, "-c", _WRITES_TOO_MUCH, str(source), str(folder), str(limit)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    reasons = dict(line.split("\t") for line in done.stdout.splitlines())
+    assert set(reasons) == set(FORMATS)
+    assert os.listdir(folder) == []  # noqa: PTH208 - hidden files as well

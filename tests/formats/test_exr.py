@@ -1,0 +1,125 @@
+"""The lookup texture as OpenImageIO reads it: the library behind Blender, Houdini, Arnold and Cycles."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import OpenImageIO as oiio
+import pytest
+from nacreous.errors import FileFormatError
+from nacreous.formats import exr
+from nacreous.tables.spec import Spec
+from nacreous.tables.table import Table
+from reference_colour import film_colour
+
+
+def opened(path: Path) -> tuple[Any, np.ndarray]:
+    """Return the only part's specification and its pixels."""
+    image = oiio.ImageInput.open(str(path))
+    assert image is not None, oiio.geterror()
+    assert not image.seek_subimage(1, 0)  # one part, as Blender wants it
+    image.seek_subimage(0, 0)
+    spec, pixels = image.spec(), image.read_image("unknown")
+    image.close()
+    return spec, pixels
+
+
+def test_is_one_part_of_three_float_channels_compressed_by_zip(table: Table, tmp_path: Path) -> None:
+    """The rules that every renderer can load: RGB, float32, ZIP, scan lines."""
+    exr.write(table, tmp_path / "film.exr")
+    spec, _ = opened(tmp_path / "film.exr")
+    assert spec.channelnames == ("R", "G", "B") or list(spec.channelnames) == ["R", "G", "B"]
+    assert str(spec.format) == "float"
+    assert spec.getattribute("compression") == "zip"
+    assert spec.tile_width == 0
+
+
+def test_says_nothing_of_primaries(table: Table, tmp_path: Path) -> None:
+    """Mitsuba converts pixels of a file with chromaticities even where it is told that they are raw."""
+    exr.write(table, tmp_path / "film.exr")
+    spec, _ = opened(tmp_path / "film.exr")
+    assert spec.getattribute("chromaticities") is None
+
+
+@pytest.mark.parametrize(("suffix", "name"), [(".exr", "R_rgb"), (".transmission.exr", "T_rgb")])
+def test_keeps_every_value_in_place(table: Table, tmp_path: Path, suffix: str, name: str) -> None:
+    """x is cos_theta from the left, y thickness_scale from the top; nothing is rounded, flipped or clipped."""
+    exr.write(table, tmp_path / "film.exr")
+    _, pixels = opened(tmp_path / f"film{suffix}")
+    np.testing.assert_array_equal(pixels, table.values(name))
+
+
+def test_the_film_of_figure_3_has_the_colour_of_an_independent_integral(table: Table, tmp_path: Path) -> None:
+    """Third row, last texel: scale 1, normal incidence.
+
+    The integral is colour-science's over the film of equation 1 (Wu & Zheng 2015); it begins at 360 nm and ends
+    at 830 nm, the table at 380 and 780 nm, beyond which 0.1 % of the light lies.
+    """
+    exr.write(table, tmp_path / "film.exr")
+    _, pixels = opened(tmp_path / "film.exr")
+    expected = film_colour(np.array([1.000277, 2.0, 1.5]), np.array([420.0]), 1.0)
+    np.testing.assert_allclose(pixels[2, -1], expected, atol=1e-3)
+
+
+def test_keeps_its_provenance(table: Table, tmp_path: Path) -> None:
+    """A reader finds the id, the version, the certificate and the complete spec, and can ask for it again."""
+    exr.write(table, tmp_path / "film.exr")
+    spec, _ = opened(tmp_path / "film.exr")
+    assert spec.getattribute("nacreous:id") == table.id
+    assert spec.getattribute("nacreous:version") == table.provenance["version"]
+    assert json.loads(spec.getattribute("nacreous:certificate")) == table.certificate
+    assert Spec.model_validate_json(spec.getattribute("nacreous:spec")) == table.spec
+    assert spec.getattribute("nacreous:colour.space") == "Rec.709"
+
+
+def test_describes_even_axes_by_their_ends(table: Table, tmp_path: Path) -> None:
+    """The texel of value v is (v - first) / (last - first) (count - 1), as the contract of clients says."""
+    exr.write(table, tmp_path / "film.exr")
+    spec, _ = opened(tmp_path / "film.exr")
+    assert json.loads(spec.getattribute("nacreous:axis.x")) == {
+        "name": "cos_theta", "unit": "1", "range": [0.0, 1.0], "count": 9, "mapping": "linear"
+    }  # fmt: skip
+    assert json.loads(spec.getattribute("nacreous:axis.y")) == {
+        "name": "thickness_scale", "unit": "1", "range": [0.5, 1.5], "count": 5, "mapping": "linear"
+    }  # fmt: skip
+
+
+def test_lists_the_values_of_uneven_axes(tabulated: Any, tmp_path: Path) -> None:
+    """An axis given as a list keeps its own values: texels are samples at them."""
+    exr.write(tabulated(thickness_scale=[0.8, 1.0, 1.2, 1.35]), tmp_path / "film.exr")
+    spec, _ = opened(tmp_path / "film.exr")
+    axis = json.loads(spec.getattribute("nacreous:axis.y"))
+    assert axis["mapping"] == "explicit"
+    assert axis["values"] == [0.8, 1.0, 1.2, 1.35]
+
+
+def test_repeats_the_row_of_a_single_thickness(one_thickness: Table, tmp_path: Path) -> None:
+    """Renderers disagree on where V = 0 is; with two equal rows all of them read the same."""
+    exr.write(one_thickness, tmp_path / "film.exr")
+    spec, pixels = opened(tmp_path / "film.exr")
+    np.testing.assert_array_equal(pixels, np.repeat(one_thickness.values("R_rgb"), 2, axis=0))
+    assert json.loads(spec.getattribute("nacreous:axis.y"))["range"] == [1.0, 1.0]
+    assert json.loads(spec.getattribute("nacreous:axis.y"))["count"] == 2
+
+
+def test_an_opaque_substrate_has_no_transmission(opaque: Table, tmp_path: Path) -> None:
+    """No light comes through silver, so there is nothing to write."""
+    assert exr.write(opaque, tmp_path / "film.exr") == (tmp_path / "film.exr",)
+    assert [path.name for path in tmp_path.iterdir()] == ["film.exr"]
+
+
+def test_names_the_channels_of_xyz_so(tabulated: Any, tmp_path: Path) -> None:
+    """A viewer would show channels R, G, B as RGB, which XYZ is not."""
+    table = tabulated(colour={"space": "XYZ"})
+    exr.write(table, tmp_path / "film.exr")
+    spec, pixels = opened(tmp_path / "film.exr")
+    assert list(spec.channelnames) == ["X", "Y", "Z"]
+    np.testing.assert_array_equal(pixels[:1], table.values("R_rgb"))
+
+
+def test_refuses_a_table_without_colours(infrared: Table, tmp_path: Path) -> None:
+    """Nobody sees the infrared; the message names what is missing."""
+    with pytest.raises(FileFormatError, match="R_rgb"):
+        exr.write(infrared, tmp_path / "film.exr")
+    assert list(tmp_path.iterdir()) == []
