@@ -9,6 +9,8 @@ BENCH_GROUP ?= bench
 VENV := .venv
 BENCH_VENV := .venv-bench
 BIN := $(VENV)/bin
+# Matplotlib's cache of fonts: a home need not be writable.
+export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 PIP_INSTALL := -m pip --disable-pip-version-check --no-input install --quiet
 
 .PHONY: help run test check bench docs clean
@@ -49,13 +51,18 @@ clean:
 
 # ---- environments: a stamp for each step, renewed when pyproject.toml changes ------------------------------
 
-# Debian cuts the part of Python that makes environments out into a package of its own.
+# $(call debian,TEST,PACKAGE): unless TEST holds, install PACKAGE where this user may; fails where it cannot be.
+debian = { $(1); } >/dev/null 2>&1 || \
+    { test "$$(id -u)" = 0 && apt-get -qq update && apt-get -qq --yes install $(2); } >/dev/null 2>&1
+
+# Debian packs what makes environments apart from Python. PoCL links its kernels with ld and gcc's library.
 $(VENV)/.made $(BENCH_VENV)/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
-	    { echo 'expected Python 3.11 or later, got $(PYTHON); choose one with PYTHON=...' >&2; exit 1; }
-	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || \
-	    { test "$$(id -u)" = 0 && apt-get -qq update && apt-get -qq --yes install python3-venv; } || \
-	    { echo 'Python cannot make environments; on Debian, install the package python3-venv' >&2; exit 1; }
+	    { echo 'Expected Python 3.11 or later; name one with PYTHON=...' >&2; exit 1; }
+	@$(call debian,$(PYTHON) -c "import ensurepip",python3-venv) || \
+	    { echo 'Python cannot make environments: install the package python3-venv' >&2; exit 1; }
+	@$(call debian,command -v ld && command -v gcc,gcc) || \
+	    echo 'PoCL needs gcc and ld to link kernels: install the package gcc' >&2
 	@$(PYTHON) -m venv --clear $(@D)
 	@$(@D)/bin/python $(PIP_INSTALL) --upgrade 'pip>=25.1'
 	@touch $@

@@ -1,9 +1,9 @@
 """Small tables that the kernels have really computed, for every test of the formats."""
 
 from collections.abc import Callable
-from typing import Any
 
 import pytest
+
 from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 from nacreous.tables.tabulate import tabulate_table
@@ -17,7 +17,7 @@ WAVELENGTH_NM = {"start": 380, "stop": 780, "step": 20}
 def tabulated() -> Tabulated:
     """Return what computes a table of a 420 nm film, n 2.0, on glass (Wu & Zheng 2015, figure 3)."""
 
-    def compute(*, substrate: object = None, colour: dict[str, str] | None = None, **axes: Any) -> Table:
+    def compute(*, substrate: object = None, colour: dict[str, str] | None = None, **axes: object) -> Table:
         film = {"material": {"n": 2.0}, "thickness_nm": 420}
         glass = {"n": 1.5}
         spec = {

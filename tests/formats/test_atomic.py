@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
 from nacreous.formats.registry import FORMATS

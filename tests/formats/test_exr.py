@@ -1,12 +1,13 @@
 """The lookup texture as OpenImageIO reads it: the library behind Blender, Houdini, Arnold and Cycles."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import OpenImageIO as oiio
 import pytest
+
 from nacreous.errors import FileFormatError
 from nacreous.formats import exr
 from nacreous.tables.spec import Spec
@@ -44,7 +45,7 @@ def test_says_nothing_of_primaries(table: Table, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("suffix", "name"), [(".exr", "R_rgb"), (".transmission.exr", "T_rgb")])
 def test_keeps_every_value_in_place(table: Table, tmp_path: Path, suffix: str, name: str) -> None:
-    """x is cos_theta from the left, y thickness_scale from the top; nothing is rounded, flipped or clipped."""
+    """X is cos_theta from the left, y thickness_scale from the top; nothing is rounded, flipped or clipped."""
     exr.write(table, tmp_path / "film.exr")
     _, pixels = opened(tmp_path / f"film{suffix}")
     np.testing.assert_array_equal(pixels, table.values(name))
@@ -85,7 +86,7 @@ def test_describes_even_axes_by_their_ends(table: Table, tmp_path: Path) -> None
     }  # fmt: skip
 
 
-def test_lists_the_values_of_uneven_axes(tabulated: Any, tmp_path: Path) -> None:
+def test_lists_the_values_of_uneven_axes(tabulated: Callable[..., Table], tmp_path: Path) -> None:
     """An axis given as a list keeps its own values: texels are samples at them."""
     exr.write(tabulated(thickness_scale=[0.8, 1.0, 1.2, 1.35]), tmp_path / "film.exr")
     spec, _ = opened(tmp_path / "film.exr")
@@ -109,7 +110,7 @@ def test_an_opaque_substrate_has_no_transmission(opaque: Table, tmp_path: Path) 
     assert [path.name for path in tmp_path.iterdir()] == ["film.exr"]
 
 
-def test_names_the_channels_of_xyz_so(tabulated: Any, tmp_path: Path) -> None:
+def test_names_the_channels_of_xyz_so(tabulated: Callable[..., Table], tmp_path: Path) -> None:
     """A viewer would show channels R, G, B as RGB, which XYZ is not."""
     table = tabulated(colour={"space": "XYZ"})
     exr.write(table, tmp_path / "film.exr")

@@ -1,13 +1,14 @@
 """The picture as Pillow reads it."""
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from PIL import Image
+
 from nacreous.formats import png
 from nacreous.formats.srgb import encoded, out_of_gamut, rec709
 from nacreous.tables.table import Table
-from PIL import Image
 
 
 def picture(path: Path) -> tuple[np.ndarray, dict[str, str]]:
@@ -18,7 +19,7 @@ def picture(path: Path) -> tuple[np.ndarray, dict[str, str]]:
 
 
 def test_has_the_size_and_the_provenance_of_the_lookup_texture(table: Table, tmp_path: Path) -> None:
-    """x is cos_theta, y thickness_scale; the text chunks say what it is, in any script."""
+    """X is cos_theta, y thickness_scale; the text chunks say what it is, in any script."""
     assert [path.name for path in png.write(table, tmp_path / "film.png")] == [
         "film.png",
         "film.transmission.png",
@@ -52,7 +53,7 @@ def test_colours_out_of_the_gamut_are_clipped_and_counted() -> None:
     assert out_of_gamut(colours) == 0.5
 
 
-def test_other_spaces_show_the_same_colours(tabulated: Any) -> None:
+def test_other_spaces_show_the_same_colours(tabulated: Callable[..., Table]) -> None:
     """A space is a way to write a colour down: the film looks the same in all of them."""
     expected = tabulated().values("R_rgb")
     for space in ("ACEScg", "Rec.2020", "XYZ"):

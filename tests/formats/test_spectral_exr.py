@@ -1,11 +1,13 @@
 """The spectral EXR as colour-science reads it, after Fichet, Pacanowski and Wilkie, JCGT 10(3), 2021."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import OpenEXR
 import pytest
+
 from nacreous.formats import spectral_exr
 from nacreous.tables.table import Table
 from reference import film
@@ -55,7 +57,7 @@ def test_is_a_reflective_layout_with_a_preview(table: Table, tmp_path: Path) -> 
         np.testing.assert_array_equal(file.channels()["RGB"].pixels, table.values("R_rgb"))
 
 
-def test_writes_wavelengths_with_a_decimal_comma(tabulated: Any, tmp_path: Path) -> None:
+def test_writes_wavelengths_with_a_decimal_comma(tabulated: Callable[..., Table], tmp_path: Path) -> None:
     """Section 3.2 of the layout; a dot would separate another part of the channel's name."""
     spectral_exr.write(tabulated(wavelength_nm=[390, 550.5, 700.25]), tmp_path / "film.spectral.exr")
     with OpenEXR.File(str(tmp_path / "film.spectral.exr"), separate_channels=True) as file:

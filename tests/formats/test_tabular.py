@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray
+
 from nacreous.formats import csv, netcdf, npz
 from nacreous.tables.table import Table
 

@@ -22,13 +22,15 @@ SUFFIX = ".nc"
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write all of `table` and return the file; raises `FileFormatError`."""
-    dataset = table.to_xarray()
-    lossless = {"zlib": True, "shuffle": True, "complevel": 4}
+    # In memory first: the HDF5 library ends the process where a disk is full.
     with replacing(path) as (temporary,):
-        dataset.to_netcdf(
-            temporary, engine="h5netcdf", encoding={str(name): lossless for name in dataset.data_vars}
-        )
+        temporary.write_bytes(_encoded(table.to_xarray()))
     return (path,)
+
+
+def _encoded(dataset: "xarray.Dataset") -> memoryview:
+    lossless = {"zlib": True, "shuffle": True, "complevel": 4}
+    return dataset.to_netcdf(engine="h5netcdf", encoding={str(name): lossless for name in dataset.data_vars})
 
 
 def read(path: Path) -> Contents:

@@ -22,5 +22,5 @@ def film_ellipsometry(
     observer: Observer | None = None,
     lanes: int | None = None,
 ) -> dict[str, NDArray[np.floating]]:
-    """Ellipsometric psi and Delta in radians, each of shape (S, A, L), of a problem with one variant and no thick layer."""
+    """Ellipsometric psi and Delta in radians, each of shape (S, A, L), of a coherent film of one variant."""
     return spectral_rows(device, "film_ellipsometry", NAMES, problem, precision, (), observer, lanes)

@@ -31,9 +31,9 @@ def quadrature_nm(
 ) -> FloatArray:
     """Wavelengths that resolve the film's colour, whatever spectral axis is stored, shape (Q,).
 
-    The part of the spec's range that the observer sees, in equal steps of 1 nm at most and at least 8 samples a
-    fringe. Fringes are lambda^2 / (2 n d) apart, n d the optical thickness of the whole coherent stack; that is
-    taken at 400 nm, below which an eye sees next to nothing.
+    The part of the spec's range that the observer sees, in equal steps of 1 nm at most and at least 8 samples
+    a fringe. Fringes are lambda^2 / (2 n d) apart, n d the optical thickness of the whole coherent stack;
+    that is taken at 400 nm, below which an eye sees next to nothing.
 
     Raises
     ------

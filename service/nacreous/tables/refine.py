@@ -27,7 +27,7 @@ _ALMOST = 0.95
 _PROBE_ANGLES, _PROBED_CELLS = 17, 256
 """Angles, and cells along the thickness axis, at which its error is measured by itself."""
 _GROWTHS = (1.0, 1.15, 1.4, 1.8, 2.5, 4.0)
-"""Factors on the thickness scales that hold by themselves; more of them leave more of the error to the angles."""
+"""Factors on the thickness scales that hold by themselves; more scales leave more error to the angles."""
 
 
 def refined(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float) -> Grid:

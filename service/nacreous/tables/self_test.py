@@ -1,7 +1,7 @@
 """Does this device compute films rightly? Stacks with known results, computed on this machine.
 
-The goldens were computed with 60 digits: absorbing, opaque, thick, grazing and totally reflecting stacks of up
-to 60 layers.
+The goldens were computed with 60 digits: absorbing, opaque, thick, grazing and totally reflecting stacks of
+up to 60 layers.
 """
 
 import json
@@ -68,12 +68,12 @@ def goldens() -> Iterator[Golden]:
 
 
 def golden_errors(device: Device, cases: list[Golden], asked: Precision) -> NDArray[np.float64]:
-    """Errors of R_s, R_p, T_s and T_p, shape (cases, 4), each film in the precision that a table would have."""
+    """Errors of R_s, R_p, T_s and T_p, shape (cases, 4), each in the precision that a table would have."""
     return np.array([_error(device, case, phase_precision(case.problem, asked)) for case in cases])
 
 
 def run_self_test(selector: str | None = None) -> SelfTest:
-    """Compute every golden in single and in double precision; raises `DeviceError` where there is no device."""
+    """Compute every golden in single and in double precision; raises `DeviceError` without a device."""
     device, cases = open_device(selector), list(goldens())
     single, double = (golden_errors(device, cases, precision) for precision in Precision)
     nonfinite = int(np.count_nonzero(~np.isfinite([single, double])))

@@ -61,7 +61,7 @@ class FilmSolver:
         return checked_intensities(self.device, problem, self.precision, observer)
 
     def exact_intensities(self, grid: Grid) -> dict[str, NDArray[np.floating]]:
-        """The same in double precision."""
+        """R_s, R_p, T_s and T_p of shape (S, A, L), in double precision."""
         problem = film_problem(self.stack, self.spread, grid)
         return checked_intensities(self.device, problem, Precision.DOUBLE)
 
