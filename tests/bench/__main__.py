@@ -6,6 +6,7 @@ from pathlib import Path
 from bench.ours import FLOP_PER_LAYER_EVALUATION, ours
 from bench.page import render
 from bench.roofline import measure_roofline
+from bench.scaling import scaling_figures
 from bench.stack import BenchStack, bench_stack
 from bench.timing import Measurement, Missing, measure
 from bench.witnesses import Witness, witnesses
@@ -22,6 +23,7 @@ def main() -> None:
         measured,
         [_measured_if_installed(witness, stack) for witness in others],
         measure_roofline(),
+        scaling_figures(),
         stack=stack,
         flop_per_layer_evaluation=FLOP_PER_LAYER_EVALUATION,
     )

@@ -7,6 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from bench.roofline import Roofline
+from bench.scaling import Figure
 from bench.stack import BenchStack
 from bench.timing import Measurement, Missing
 
@@ -41,6 +42,12 @@ Measured on {device}:
 The kernel's {flop:.0f} flop a layer evaluation are counted in its source: a root, a reciprocal or a
 polynomial as the multiplications and additions it takes.
 
+## Periods, textures, processes
+
+| | measured | target |
+|---|--:|--:|
+{figures}
+
 ## Machine
 
 {machine}.
@@ -51,17 +58,19 @@ def render(
     ours: Measurement,
     others: Sequence[Measurement | Missing],
     roofline: Roofline,
+    figures: Sequence[Figure],
     *,
     stack: BenchStack,
     flop_per_layer_evaluation: float,
 ) -> str:
-    """Write the page: the table of programs, our share of the roofline, the machine."""
+    """Write the page: the table of programs, our share of the roofline, what scales how, the machine."""
     return TEMPLATE.format(
         work=_work(stack),
         rows="\n".join([*(_row(other, ours) for other in others), _own_row(ours)]),
         device=roofline.device,
         shares=_shares(ours, roofline, stack, flop_per_layer_evaluation),
         flop=flop_per_layer_evaluation,
+        figures="\n".join(f"| {f.what} | {f.measured} | {f.target} |" for f in figures),
         machine=f"{_processor()}, {os.cpu_count()} cores; Python {platform.python_version()}; {_versions()}",
     )
 

@@ -3,9 +3,10 @@
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-import OpenImageIO as oiio
+import OpenImageIO
 import pytest
 
 from nacreous.errors import FileFormatError
@@ -17,8 +18,8 @@ from reference_colour import film_colour
 
 def opened(path: Path) -> tuple[Any, np.ndarray]:
     """Return the only part's specification and its pixels."""
-    image = oiio.ImageInput.open(str(path))
-    assert image is not None, oiio.geterror()
+    image = OpenImageIO.ImageInput.open(str(path))
+    assert image is not None, OpenImageIO.geterror()
     assert not image.seek_subimage(1, 0)  # one part, as Blender wants it
     image.seek_subimage(0, 0)
     spec, pixels = image.spec(), image.read_image("unknown")
@@ -45,7 +46,7 @@ def test_says_nothing_of_primaries(table: Table, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("suffix", "name"), [(".exr", "R_rgb"), (".transmission.exr", "T_rgb")])
 def test_keeps_every_value_in_place(table: Table, tmp_path: Path, suffix: str, name: str) -> None:
-    """X is cos_theta from the left, y thickness_scale from the top; nothing is rounded, flipped or clipped."""
+    """Columns are cos_theta from the left, rows thickness_scale from the top; nothing is rounded."""
     exr.write(table, tmp_path / "film.exr")
     _, pixels = opened(tmp_path / f"film{suffix}")
     np.testing.assert_array_equal(pixels, table.values(name))
@@ -54,8 +55,8 @@ def test_keeps_every_value_in_place(table: Table, tmp_path: Path, suffix: str, n
 def test_the_film_of_figure_3_has_the_colour_of_an_independent_integral(table: Table, tmp_path: Path) -> None:
     """Third row, last texel: scale 1, normal incidence.
 
-    The integral is colour-science's over the film of equation 1 (Wu & Zheng 2015); it begins at 360 nm and ends
-    at 830 nm, the table at 380 and 780 nm, beyond which 0.1 % of the light lies.
+    The integral is colour-science's over the film of equation 1 (Wu & Zheng 2015), from 360 to 830 nm; the
+    table's is from 380 to 780 nm, beyond which 0.1 % of the light lies.
     """
     exr.write(table, tmp_path / "film.exr")
     _, pixels = opened(tmp_path / "film.exr")

@@ -35,7 +35,8 @@ def write(table: Table, path: Path) -> tuple[Path, ...]:
 def read(path: Path) -> Contents:
     """Return all arrays and the provenance; raises `FileFormatError`."""
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        # Opened here: `numpy.load` forgets to close what turns out to be no archive.
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             stored = {name: archive[name] for name in archive.files}
     except (OSError, ValueError, EOFError, KeyError, TypeError, AttributeError, zipfile.BadZipFile) as error:
         raise FileFormatError(f"expected an npz archive, got one that cannot be read: {error}") from error

@@ -34,17 +34,28 @@ def write_part(
     Raises
     ------
     OSError
-        The file cannot be written.
+        The file cannot be written, or does not hold what was written.
     """
     import OpenEXR
 
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, **attributes}
     planes = {name: np.ascontiguousarray(plane, np.float32) for name, plane in channels.items()}
     try:
-        with OpenEXR.File(header, planes) as file:
+        with OpenEXR.File(header, dict(planes)) as file:  # a copy: the binding changes what it is given
             file.write(str(path))
     except RuntimeError as error:  # 'Failed to write pixel data to image file "…". File too large.'
         raise OSError(str(error).rpartition('". ')[2]) from error
+    _check_written(path, planes)
+
+
+def _check_written(path: Path, planes: Mapping[str, NDArray[np.float32]]) -> None:
+    """Read a file again: OpenEXR says nothing of a disk that was full when it closed the file."""
+    try:
+        stored, _ = read_part(path)
+    except FileFormatError as error:
+        raise OSError("the disk has not kept what was written") from error
+    if not all(np.array_equal(stored[name], plane, equal_nan=True) for name, plane in planes.items()):
+        raise OSError("the disk has not kept what was written")
 
 
 def read_part(path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:

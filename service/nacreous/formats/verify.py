@@ -147,10 +147,19 @@ def _check_axes(contents: Contents) -> Iterator[str]:
     for direction, name in enumerate(("axis.y", "axis.x")):
         if name not in contents.provenance:
             continue
-        count = json.loads(contents.provenance[name])["count"]
+        count = _count(contents.provenance[name])
         for quantity, array in contents.arrays.items():
-            if array.shape[direction] != count:
-                yield f"{quantity}: expected {count} texels along {name}, got {array.shape[direction]}"
+            texels = array.shape[direction]
+            if texels != count:
+                yield f"nacreous:{name}: expected {texels} texels as {quantity} has, got {count}"
+
+
+def _count(axis: str) -> object:
+    """Return the number of texels that the JSON of an axis says; None where it says none."""
+    try:
+        return json.loads(axis)["count"]
+    except (ValueError, KeyError, TypeError):
+        return None
 
 
 def _check_provenance(contents: Contents) -> Iterator[str]:

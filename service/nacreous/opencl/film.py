@@ -8,7 +8,7 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film_problem import FilmProblem, film_buffers
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import Observer, row_tiles, run_tile
+from nacreous.opencl.tiles import Observer, TileRunner, row_tiles
 
 __all__ = ["GROUPS", "NAMES", "film_intensities", "spectral_rows"]
 
@@ -38,9 +38,7 @@ def film_intensities(
     BudgetError
         The four arrays are larger than the byte budget; nothing is allocated.
     """
-    return spectral_rows(
-        device, "film", NAMES, problem, precision, (("INCOHERENT", int(problem.incoherent)),), observer, lanes
-    )
+    return spectral_rows(device, "film", NAMES, problem, precision, observer, lanes)
 
 
 def spectral_rows(
@@ -49,7 +47,6 @@ def spectral_rows(
     names: tuple[str, ...],
     problem: FilmProblem,
     precision: Precision,
-    numbers: tuple[tuple[str, int], ...],
     observer: Observer | None,
     lanes: int | None,
 ) -> dict[str, NDArray[np.floating]]:
@@ -61,19 +58,11 @@ def spectral_rows(
         rows * wavelengths * len(names) * item,
     )
     lanes = lanes or device.lanes(precision)
-    kernel = kernel_of(device, Build(kernel_name, precision, lanes, numbers))
+    kernel = kernel_of(device, Build(kernel_name, precision, lanes, problem.build_numbers))
     buffers = film_buffers(device, problem, precision, lanes)
     results = {name: np.empty((rows, wavelengths), precision.dtype) for name in names}
+    runner = TileRunner(device, kernel, tuple(results.values()), buffers.stride, GROUPS[device.info.kind])
     bytes_a_row = buffers.stride * len(names) * item
     for tile in row_tiles(rows, problem.layer_evaluations_a_row, bytes_a_row, observer):
-        computed = run_tile(
-            device,
-            kernel,
-            (*buffers.arguments, *tile.bounds),
-            (buffers.stride // lanes, tile.rows),
-            GROUPS[device.info.kind],
-            [((tile.rows, buffers.stride), precision.dtype)] * len(names),
-        )
-        for name, values in zip(names, computed, strict=True):
-            results[name][tile.origin : tile.origin + tile.rows] = values[:, :wavelengths]
+        runner.run(tile, (*buffers.arguments, *tile.bounds), (buffers.stride // lanes, tile.rows))
     return {name: values.reshape(problem.shape) for name, values in results.items()}

@@ -10,7 +10,7 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film_problem import FilmProblem, film_buffers, upload
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import Observer, row_tiles, run_tile
+from nacreous.opencl.tiles import Observer, TileRunner, row_tiles
 
 __all__ = ["Side", "film_colour"]
 
@@ -49,20 +49,13 @@ def film_colour(
     item = np.dtype(precision.dtype).itemsize
     require(f"a colour table of {' x '.join(map(str, problem.shape[:2]))} texels", problem.rows * 3 * item)
     lanes = lanes or device.lanes(precision)
-    numbers = (("INCOHERENT", int(problem.incoherent)), ("TRANSMISSION", side.value))
+    numbers = (*problem.build_numbers, ("TRANSMISSION", side.value))
     kernel = kernel_of(device, Build("film_colour", precision, lanes, numbers))
     buffers = film_buffers(device, problem, precision, lanes)
     padding = buffers.stride - colour_weights.shape[1]
     weights = upload(device, np.pad(colour_weights, ((0, 0), (0, padding))), precision.dtype)
     colour = np.empty((problem.rows, 3), precision.dtype)
+    runner = TileRunner(device, kernel, (colour,), 3, _GROUPS[device.info.kind])
     for tile in row_tiles(problem.rows, problem.layer_evaluations_a_row, 3 * item, observer):
-        (values,) = run_tile(
-            device,
-            kernel,
-            (*buffers.arguments, *tile.bounds, weights),
-            (tile.rows,),
-            _GROUPS[device.info.kind],
-            [((tile.rows, 3), precision.dtype)],
-        )
-        colour[tile.origin : tile.origin + tile.rows] = values
+        runner.run(tile, (*buffers.arguments, *tile.bounds, weights), (tile.rows,))
     return colour.reshape(*problem.shape[:2], 3)

@@ -23,4 +23,4 @@ def film_ellipsometry(
     lanes: int | None = None,
 ) -> dict[str, NDArray[np.floating]]:
     """Ellipsometric psi and Delta in radians, each of shape (S, A, L), of a coherent film of one variant."""
-    return spectral_rows(device, "film_ellipsometry", NAMES, problem, precision, (), observer, lanes)
+    return spectral_rows(device, "film_ellipsometry", NAMES, problem, precision, observer, lanes)

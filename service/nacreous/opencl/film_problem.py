@@ -68,6 +68,12 @@ class FilmProblem:
         return any(segment.repeat == THICK for segment in self.segments)
 
     @property
+    def build_numbers(self) -> tuple[tuple[str, int], ...]:
+        """What kernels/film.clh is compiled for: only the kinds of segments that there are."""
+        periodic = any(segment.repeat > 1 for segment in self.segments)
+        return ("INCOHERENT", int(self.incoherent)), ("PERIODIC", int(periodic))
+
+    @property
     def layer_evaluations_a_row(self) -> int:
         """Layers crossed for one row, with every variant: what a launch's time goes by."""
         variants, layers = self.thickness_nm.shape[1:]

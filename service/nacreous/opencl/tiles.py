@@ -6,22 +6,22 @@ cannot stop a kernel that runs, and ``finish()`` ignores signals.
 
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
 from nacreous.errors import DeviceError
 from nacreous.opencl.device import Device
 
-__all__ = ["Observer", "Tile", "row_tiles", "run_tile"]
+__all__ = ["Observer", "Tile", "TileRunner", "row_tiles"]
 
 Observer = Callable[[float], None]
 """Told the fraction done, 0 to 1, after every tile; what it raises ends the work."""
 
 _TARGET_SECONDS = 0.1
-_FIRST_TILE_EVALUATIONS = 2_000_000
+_FIRST_TILE_EVALUATIONS = 5_000_000
 _MOST_TILE_BYTES = 32 * 2**20
 _MOST_GROWTH = 4
 
@@ -66,35 +66,71 @@ def row_tiles(
         size = min(most, max(1, int(size * growth)))
 
 
-def run_tile(
-    device: Device,
-    kernel: Any,  # noqa: ANN401 - pyopencl is untyped
-    arguments: tuple[Any, ...],
-    work: tuple[int, ...],
-    group: tuple[int, ...],
-    outputs: list[tuple[tuple[int, ...], DTypeLike]],
-) -> list[NDArray[Any]]:
-    """Launch a kernel over `work` items, wait, and return its outputs.
+@dataclass(frozen=True, eq=False)
+class TileRunner:
+    """A kernel that fills rows of tables, and its output buffers, which all tiles of a table share.
 
     Parameters
     ----------
-    arguments : tuple
-        Everything before the outputs.
-    work, group : tuple of int
-        Global size, rounded up to whole work-groups, and local size; a kernel skips what is too much.
-    outputs : list of (shape, dtype)
-        One buffer each, in the kernel's order.
+    device : Device
+    kernel
+        Built kernel.
+    tables : tuple of float arrays, shape (rows, columns)
+        What the kernel fills, in the order of its last arguments.
+    stride : int
+        Columns of a row on the device, at least as many as the tables have.
+    group : tuple of int
+        Work-group size; the work is rounded up to whole groups, and a kernel skips what is too much.
     """
-    import pyopencl as cl
 
-    hosts = [np.empty(shape, dtype) for shape, dtype in outputs]
-    rounded = tuple(-(-items // local) * local for items, local in zip(work, group, strict=True))
-    try:
-        buffers = [cl.Buffer(device.context, cl.mem_flags.WRITE_ONLY, host.nbytes) for host in hosts]
-        kernel.set_args(*arguments, *buffers)
-        cl.enqueue_nd_range_kernel(device.queue, kernel, rounded, group).wait()
-        for host, buffer in zip(hosts, buffers, strict=True):
-            cl.enqueue_copy(device.queue, host, buffer, is_blocking=True)
-    except cl.Error as error:
-        raise DeviceError(f"{device.info.name} failed in kernel {kernel.function_name}: {error}") from error
-    return hosts
+    device: Device
+    kernel: Any
+    tables: tuple[NDArray[Any], ...]
+    stride: int
+    group: tuple[int, ...]
+    _buffers: list[Any] = field(default_factory=list)
+
+    def run(self, tile: Tile, arguments: tuple[Any, ...], work: tuple[int, ...]) -> None:
+        """Launch over `work` items, wait, and copy the tile's rows into the tables.
+
+        `arguments` is everything before the outputs.
+        """
+        import pyopencl as cl
+
+        rounded = tuple(-(-items // local) * local for items, local in zip(work, self.group, strict=True))
+        try:
+            buffers = self._buffers_of(tile.rows)
+            self.kernel.set_args(*arguments, *buffers)
+            cl.enqueue_nd_range_kernel(self.device.queue, self.kernel, rounded, self.group).wait()
+            for table, buffer in zip(self.tables, buffers, strict=True):
+                self._copy(table[tile.origin : tile.origin + tile.rows], buffer)
+        except cl.Error as error:
+            name = self.kernel.function_name
+            raise DeviceError(f"{self.device.info.name} failed in kernel {name}: {error}") from error
+
+    def _buffers_of(self, rows: int) -> list[Any]:
+        import pyopencl as cl
+
+        sizes = [rows * self.stride * table.itemsize for table in self.tables]
+        if not self._buffers or self._buffers[0].size < sizes[0]:
+            flags = cl.mem_flags.WRITE_ONLY
+            self._buffers[:] = [cl.Buffer(self.device.context, flags, size) for size in sizes]
+        return self._buffers
+
+    def _copy(self, rows: NDArray[Any], buffer: Any) -> None:  # noqa: ANN401 - pyopencl is untyped
+        """Copy rows from the device, leaving their padding behind."""
+        import pyopencl as cl
+
+        count, columns = rows.shape
+        copy: Any = cl.enqueue_copy  # its type stubs lack the rectangular form
+        copy(
+            self.device.queue,
+            rows,
+            buffer,
+            buffer_origin=(0, 0),
+            host_origin=(0, 0),
+            region=(columns * rows.itemsize, count),
+            buffer_pitches=(self.stride * rows.itemsize,),
+            host_pitches=(rows.strides[0],),
+            is_blocking=True,
+        )

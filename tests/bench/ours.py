@@ -1,0 +1,52 @@
+"""Nacreous's own film kernel as a program of the benchmark."""
+
+import numpy as np
+
+from bench.stack import BenchStack
+from bench.timing import Solver
+from bench.witnesses import Witness
+from nacreous.opencl.device import open_device
+from nacreous.opencl.film import film_intensities
+from nacreous.opencl.film_problem import FilmProblem, Segment
+from nacreous.opencl.precision import Precision
+from reference import Intensities
+
+TRANSPARENT_FLOP, DECAYING_FLOP = 79, 192
+"""Multiplications and additions to cross a layer (kernels/field.clh): a root 23, a phase 26, a decay 22, the
+fields of both polarisations 24 or 56, the rest products of the layer's numbers."""
+
+FLOP_PER_LAYER_EVALUATION = 0.6 * TRANSPARENT_FLOP + 0.4 * DECAYING_FLOP
+"""Four of the benchmark's ten layers absorb."""
+
+
+def ours() -> Witness:
+    """Nacreous in single precision."""
+    return Witness("Nacreous, OpenCL on PoCL, float32", make_nacreous, runs=15)
+
+
+def make_nacreous() -> Solver:
+    """Return a solver that runs from host arrays to host arrays, as a table does."""
+    device = open_device()
+
+    def solve(stack: BenchStack) -> Intensities:
+        problem = film_problem(stack)
+        return Intensities(**film_intensities_of_one_scale(problem))
+
+    def film_intensities_of_one_scale(problem: FilmProblem) -> dict[str, np.ndarray]:
+        computed = film_intensities(device, problem, Precision.SINGLE)
+        return {name: values[0] for name, values in computed.items()}
+
+    return solve
+
+
+def film_problem(stack: BenchStack, repeat: int = 1) -> FilmProblem:
+    """The benchmark's stack, its layers `repeat` times, as the kernels take it."""
+    layers = stack.thickness_nm.size
+    return FilmProblem(
+        wavelength_nm=stack.wavelength_nm,
+        index=stack.index,
+        segments=(Segment(0, layers, repeat),),
+        thickness_nm=stack.thickness_nm.reshape(1, 1, layers),
+        weights=np.ones(1),
+        cos_theta=stack.cos_theta,
+    )

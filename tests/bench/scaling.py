@@ -1,0 +1,124 @@
+"""What a table costs beyond one film: periods, lookup textures, whole processes."""
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from bench.ours import film_problem
+from bench.stack import BenchStack, bench_stack
+from nacreous.opencl.device import Device, open_device
+from nacreous.opencl.film import film_intensities
+from nacreous.opencl.film_colour import Side, film_colour
+from nacreous.opencl.film_problem import FilmProblem, Segment
+from nacreous.opencl.precision import Precision
+
+RUNS = 9
+
+PROGRAM = str(Path(sys.executable).with_name("nacreous"))
+TABULATE = (PROGRAM, "tabulate", "paper/figure-3", "--format", "exr", "-o")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One measured number and what it is aimed at, both ready to read."""
+
+    what: str
+    measured: str
+    target: str
+
+
+def scaling_figures() -> list[Figure]:
+    """Measure everything, the whole processes last."""
+    device = open_device()
+    return [*_period_figures(device), _colour_figure(device), *_process_figures()]
+
+
+def _period_figures(device: Device) -> list[Figure]:
+    """1,000 periods of two layers against one, in either precision, without and with absorption."""
+    rows = []
+    for kind, layers in (("lossless", [2, 4]), ("absorbing", [3, 5])):
+        pair = _layers_of(bench_stack(), layers)
+        for precision in Precision:
+            one, many = (
+                _median_seconds(lambda p=film_problem(pair, repeat): film_intensities(device, p, precision))
+                for repeat in (1, 1000)
+            )
+            name = f"1,000 {kind} periods against one, {precision.name.lower()} precision"
+            rows.append(Figure(name, f"{many / one:.1f} x the time", "3 x"))
+    return rows
+
+
+def _layers_of(stack: BenchStack, layers: list[int]) -> BenchStack:
+    kept = [0, *layers, -1]
+    return replace(stack, index=stack.index[kept], thickness_nm=stack.thickness_nm[np.array(layers) - 1])
+
+
+def _colour_figure(device: Device) -> Figure:
+    """The lookup texture of performance.md's third target: 512 x 512 texels of one film, 401 wavelengths."""
+    wavelength_nm = np.linspace(350, 750, 401)
+    index = np.array([1.0, 2.0, 1.5])[:, None] * np.ones(401, complex)
+    problem = FilmProblem(
+        wavelength_nm=wavelength_nm,
+        index=index,
+        segments=(Segment(0, 1, 1),),
+        thickness_nm=420 * np.linspace(0.5, 1.5, 512).reshape(512, 1, 1),
+        weights=np.ones(1),
+        cos_theta=np.linspace(0, 1, 512),
+    )
+    weights = np.ones((3, 401)) / 401
+    seconds = _median_seconds(
+        lambda: film_colour(device, problem, weights, Side.REFLECTION, Precision.SINGLE)
+    )
+    return Figure("colour texture, 512 x 512 from 401 wavelengths", f"{seconds:.3f} s", "0.25 s")
+
+
+def _process_figures() -> list[Figure]:
+    """Whole processes: wall time of a small texture and of --help, peak memory of a large texture."""
+    with tempfile.TemporaryDirectory() as folder:
+        small = _median_seconds(lambda: _run(*TABULATE, folder))
+        large = _peak_bytes(
+            *TABULATE,
+            folder,
+            *("--set", "table.cos_theta=512"),
+            *("--set", "table.thickness_scale={start=0.5, stop=1.5, count=512}"),
+        )
+    usage = _median_seconds(lambda: _run(PROGRAM, "--help"))
+    return [
+        Figure("`nacreous tabulate paper/figure-3 --format exr`, warm kernel cache", f"{small:.2f} s", "1.0 s"),
+        Figure("`nacreous --help`", f"{usage:.2f} s", "0.3 s"),
+        Figure("peak memory of the process, 512 x 512 texels", f"{large / 1e6:.0f} MB", "500 MB"),
+    ]
+
+
+def _median_seconds(run: Callable[[], object]) -> float:
+    run()  # compiles, and fills caches
+    seconds = []
+    for _ in range(RUNS):
+        start = time.perf_counter()
+        run()
+        seconds.append(time.perf_counter() - start)
+    return statistics.median(seconds)
+
+
+def _run(*arguments: str) -> None:
+    subprocess.run(arguments, check=True, stdout=subprocess.DEVNULL)
+
+
+def _peak_bytes(*arguments: str) -> int:
+    """Largest resident set of a process, by the operating system's account of its own child."""
+    child = os.posix_spawn(arguments[0], arguments, os.environ, file_actions=_SILENT)
+    _, status, usage = os.wait4(child, 0)
+    if status:
+        raise RuntimeError(f"{' '.join(arguments)} ended with status {status}")
+    return usage.ru_maxrss * 1024
+
+
+_SILENT = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]

@@ -1,0 +1,98 @@
+"""Every kind of wrong spec: exit code 2, one message with the field, what was expected and what came."""
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+STACK = '"stack": {"incident": "air", "substrate": {"n": 1.5}, "layers": [%s]}'
+LAYER = '{"material": {"n": 2.0}, "thickness_nm": 420}'
+
+
+def film(layers: str = LAYER, rest: str = "") -> str:
+    """Return a spec as JSON text, right but for what is put in."""
+    return "{" + STACK % layers + rest + "}"
+
+
+def layer(thickness: str = "420", material: str = '{"n": 2.0}', rest: str = "") -> str:
+    """Return a spec whose one layer is as given."""
+    return film(f'{{"material": {material}, "thickness_nm": {thickness}{rest}}}')
+
+
+def table(fields: str) -> str:
+    """Return a spec whose table is as given."""
+    return film(rest=f', "table": {{{fields}}}')
+
+
+DOCUMENTS = {
+    "not a number": (layer("NaN"), "NaN"),
+    "infinite": (layer("Infinity"), "Infinity"),
+    "beyond double precision": (layer("1e999"), "1e999"),
+    "a number as text": (layer('"420"'), "stack.layers.0.thickness_nm"),
+    "not a number as text": (layer('"NaN"'), "stack.layers.0.thickness_nm"),
+    "true as a number": (layer("true"), "stack.layers.0.thickness_nm"),
+    "half a surrogate pair": (film(rest=', "name": "\\ud800"'), "surrogate"),
+    "a key twice": (film(rest=', "name": "a", "name": "b"'), "twice"),
+    "an unknown field": (film(rest=', "colr": {}'), "colr"),
+    "an unknown field further down": (layer(rest=', "thicknes": 1'), "stack.layers.0.thicknes"),
+    "nested too deeply": ("[" * 100_000, "nesting"),
+    "empty": ("", "empty"),
+    "not JSON": ("{", "JSON"),
+    "a list": ("[]", "a table at the top level"),
+    "too large": (film(rest=f', "name": "{"x" * 2**21}"'), "2 MiB"),
+}
+PHYSICS = {
+    "no layers": (film(""), "stack.layers"),
+    "65 layers": (film(", ".join([LAYER] * 65)), "stack.layers"),
+    "no stack": ("{}", "stack"),
+    "a negative thickness": (layer("-1"), "stack.layers.0.thickness_nm"),
+    "a thickness too small": (layer("1e-40"), "stack.layers.0.thickness_nm"),
+    "a thickness too large": (layer("1e9"), "stack.layers.0.thickness_nm"),
+    "n = 0": (layer(material='{"n": 0}'), "stack.layers.0.material.n"),
+    "k < 0": (layer(material='{"n": 1, "k": -0.1}'), "stack.layers.0.material.k"),
+    "|n| = 1e4": (layer(material='{"n": 1e4}'), "stack.layers.0.material.n"),
+    "an unknown material": (layer(material='"unobtainium"'), "stack.layers.0.material"),
+    "an unknown page": (layer(material='"main/Ag/Nobody"'), "stack.layers.0.material"),
+    "a material out of its range": (layer(material='"main/Ag/Sytchkova"'), "stack.layers.0.material"),
+    "an absorbing incident medium": (film().replace('"air"', '{"n": 1, "k": 0.1}'), "stack.incident"),
+    "an empty axis": (table('"wavelength_nm": []'), "table.wavelength_nm"),
+    "an axis of one point": (table('"wavelength_nm": [550]'), "table.wavelength_nm"),
+    "an axis that is not sorted": (table('"wavelength_nm": [400, 700, 550]'), "table.wavelength_nm"),
+    "a wavelength twice": (table('"wavelength_nm": [400, 400, 700]'), "table.wavelength_nm"),
+    "a cosine above 1": (table('"cos_theta": [0, 1.5]'), "table.cos_theta"),
+    "a cosine below 0": (table('"cos_theta": [-0.5, 1]'), "table.cos_theta"),
+    "one cosine": (table('"cos_theta": 1'), "table.cos_theta"),
+    "too many cosines": (table('"cos_theta": 1000000'), "table.cos_theta"),
+    "a step of 0": (table('"wavelength_nm": {"start": 400, "stop": 700, "step": 0}'), "table.wavelength_nm.step"),
+    "wavelengths without a colour": (table('"wavelength_nm": [900, 1000]'), "table.wavelength_nm"),
+    "an unknown quantity": (table('"quantity": "brightness"'), "table.quantity"),
+    "an unknown illuminant": (film(rest=', "colour": {"illuminant": "D64"}'), "colour.illuminant"),
+    "an unknown space": (film(rest=', "colour": {"space": "sRGB"}'), "colour.space"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("document", "named"), [*DOCUMENTS.values(), *PHYSICS.values()], ids=[*DOCUMENTS, *PHYSICS]
+)
+def test_is_refused_in_one_message(run: Run, tmp_path: Path, document: str, named: str) -> None:
+    """Exit code 2; no traceback, nothing on stdout, and no file or folder is left behind."""
+    (tmp_path / "film.json").write_text(document)
+    done = run("tabulate", "film.json", "-o", "out", "--json")
+    assert done.returncode == 2, done.stderr
+    assert done.stdout == ""
+    assert done.stderr.startswith("nacreous: ")
+    assert done.stderr.count("\n") == 1
+    assert all(word in done.stderr for word in ("expected ", ", got ", named))
+    assert [path.name for path in tmp_path.iterdir()] == ["film.json"]
+
+
+@pytest.mark.parametrize("name", ["n" * 5000, "../" * 50 + "film.toml", "/dev/null", ".", ""])
+def test_a_path_that_is_no_spec_is_refused(run: Run, name: str) -> None:
+    """Whatever a path may hold: names too long, folders, devices."""
+    done = run("tabulate", name)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "Traceback" not in done.stderr

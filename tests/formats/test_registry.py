@@ -1,0 +1,73 @@
+"""The registry is complete, and picks the format that a file's name asks for."""
+
+from pathlib import Path
+
+import pytest
+
+from nacreous.errors import SpecError
+from nacreous.formats.names import FormatName
+from nacreous.formats.registry import FORMATS, find_format, format_of, parts_of, write
+from nacreous.formats.verify import verify
+from nacreous.tables.table import Part, Table
+
+
+def test_every_name_has_a_format_of_its_own() -> None:
+    """The command line offers the names, so each must lead somewhere."""
+    assert list(FORMATS) == list(FormatName)
+    assert len({entry.suffix for entry in FORMATS.values()}) == len(FORMATS)
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("film.exr", "exr"),
+        ("film.spectral.exr", "spectral-exr"),
+        ("film.transmission.spectral.exr", "spectral-exr"),
+        ("FILM.EXR", "exr"),
+        ("film.nc", "netcdf"),
+        ("film.v2.csv", "csv"),
+    ],
+)
+def test_the_longest_suffix_decides(name: str, expected: str) -> None:
+    """A spectral EXR ends in .exr as well, and the case of a suffix says nothing."""
+    assert format_of(Path("folder.npz", name)).name == expected
+
+
+def test_an_unknown_suffix_or_name_is_refused_with_the_known_ones() -> None:
+    """The message says what would have been right."""
+    with pytest.raises(SpecError, match=r"\.spectral\.exr.*got .film\.tiff"):
+        format_of(Path("film.tiff"))
+    with pytest.raises(SpecError, match="did you mean netcdf"):
+        find_format("netcfd")
+
+
+def test_writes_what_xarray_holds(table: Table, tmp_path: Path) -> None:
+    """A dataset is a table that has been to xarray and back: the same bytes."""
+    write(table, tmp_path / "table.exr")
+    write(table.to_xarray(), tmp_path / "dataset.exr")
+    assert (tmp_path / "table.exr").read_bytes() == (tmp_path / "dataset.exr").read_bytes()
+
+
+def test_a_format_by_name_needs_no_suffix(table: Table, tmp_path: Path) -> None:
+    """What the user names wins over what the file is called."""
+    write(table, tmp_path / "film.data", "npz")
+    assert (tmp_path / "film.data").read_bytes()[:2] == b"PK"  # a zip archive (APPNOTE 4.3.7)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_what_is_written_is_good_and_the_same_every_time(table: Table, tmp_path: Path, name: str) -> None:
+    """The same spec gives the same bytes, and every file that is returned passes `verify`."""
+    suffix = FORMATS[FormatName(name)].suffix
+    first, second = (write(table, tmp_path / f"{stem}{suffix}") for stem in ("first", "second"))
+    for one, other in zip(first, second, strict=True):
+        assert one.read_bytes() == other.read_bytes()
+        assert verify(one).problems == ()
+        assert verify(one).id == table.id
+
+
+def test_asks_for_colours_only_where_there_are_any(one_thickness: Table, infrared: Table) -> None:
+    """An npz takes what the spec has; an EXR lookup texture is nothing without colours."""
+    npz, exr = FORMATS[FormatName.NPZ], FORMATS[FormatName.EXR]
+    assert parts_of([npz], one_thickness.spec) == {Part.SPECTRUM, Part.COLOUR}
+    assert parts_of([npz], infrared.spec) == {Part.SPECTRUM}
+    assert parts_of([npz, exr], infrared.spec) == {Part.SPECTRUM, Part.COLOUR}
