@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.errors import NumericalError
+from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
 from nacreous.opencl.film import film_intensities
 from nacreous.opencl.film_problem import THICK, FilmProblem, Segment
@@ -54,8 +55,18 @@ class Grid:
 
 
 def film_problem(stack: Stack, spread: ThicknessSpread, grid: Grid) -> FilmProblem:
-    """Sample the stack at the grid's wavelengths and lay its thicknesses out, (S, V, M)."""
+    """Sample the stack at the grid's wavelengths and lay its thicknesses out, (S, V, M).
+
+    Raises
+    ------
+    SpecError
+        A material cannot be used at a wavelength.
+    BudgetError
+        The thicknesses alone exceed the byte budget.
+    """
     sampled = sample_stack(stack, grid.wavelength_nm)
+    thicknesses = grid.thickness_scale.size * spread.offset_nm.size
+    require(f"a film of {thicknesses:,} thicknesses", thicknesses * np.dtype(np.float64).itemsize)
     variants = sampled.thickness_nm + spread.offset_nm  # (V, M)
     return FilmProblem(
         wavelength_nm=sampled.wavelength_nm,

@@ -1,6 +1,6 @@
 """One spec's film, ready to be evaluated at any points: what tables and certificates are computed with."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +21,8 @@ FloatArray = NDArray[np.float64]
 TRANSMITTING_K = 1e-3
 """A substrate with less than this k lets light through; more, and a millimetre of it is opaque."""
 
-SINGLE_TOLERANCE = 2e-5
-"""Measured rounding of R and T above which a table is computed in double precision."""
-
-_SPREAD_PROBES, _ROUNDING_PROBES = (2, 8, 48), (4, 64, 16)
-"""Scales, angles and wavelengths at which thickness nodes, and the precision, are settled."""
+_SPREAD_PROBES = (2, 8, 48)
+"""Scales, angles and wavelengths at which the nodes of a thickness spread are settled."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,24 +80,19 @@ def film_solver(device: Device, stack: Stack, grid: Grid, asked: Precision) -> F
     transmits = bool(sample_stack(stack, grid.wavelength_nm).index[-1].imag.max() < TRANSMITTING_K)
     spread = _spread(device, stack, grid)
     precision = phase_precision(film_problem(stack, spread, grid), asked)
-    solver = FilmSolver(device, stack, spread, precision, transmits)
-    if precision is Precision.SINGLE and _rounding(solver, grid) > SINGLE_TOLERANCE:
-        return replace(solver, precision=Precision.DOUBLE)
-    return solver
-
-
-def _rounding(solver: FilmSolver, grid: Grid) -> float:
-    """Largest difference between the two precisions on a part of the grid."""
-    probe = _probe_grid(grid, _ROUNDING_PROBES)
-    single, double = solver.intensities(probe), solver.exact_intensities(probe)
-    return max(float(np.abs(single[name] - double[name]).max()) for name in single)
+    return FilmSolver(device, stack, spread, precision, transmits)
 
 
 def _spread(device: Device, stack: Stack, grid: Grid) -> ThicknessSpread:
     sampled = sample_stack(stack, grid.wavelength_nm[:1])
     if not sampled.thickness_sigma_nm.any():
         return one_thickness(sampled.thickness_nm.size)
-    probe = _probe_grid(grid, _SPREAD_PROBES)
+    scales, angles, wavelengths = _SPREAD_PROBES
+    probe = Grid(
+        _probe(grid.thickness_scale, scales),
+        _probe(grid.cos_theta, angles),
+        _probe(grid.wavelength_nm, wavelengths),
+    )
 
     def mean_intensities(spread: ThicknessSpread) -> FloatArray:
         problem = film_problem(stack, spread, probe)
@@ -108,15 +100,6 @@ def _spread(device: Device, stack: Stack, grid: Grid) -> ThicknessSpread:
         return np.stack([np.asarray(values, np.float64) for values in computed.values()])
 
     return converged_spread(stack, grid.wavelength_nm, mean_intensities)
-
-
-def _probe_grid(grid: Grid, counts: tuple[int, int, int]) -> Grid:
-    scales, angles, wavelengths = counts
-    return Grid(
-        _probe(grid.thickness_scale, scales),
-        _probe(grid.cos_theta, angles),
-        _probe(grid.wavelength_nm, wavelengths),
-    )
 
 
 def _probe(axis: FloatArray, count: int) -> FloatArray:

@@ -1,6 +1,8 @@
 """From a spec to a table."""
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from functools import partial
 from importlib.metadata import version
 from typing import Any
 
@@ -28,6 +30,11 @@ from nacreous.tables.table import Part, Table, Variable
 __all__ = ["Observer", "tabulate_table"]
 
 _PRECISIONS = {"single": Precision.SINGLE, "double": Precision.DOUBLE}
+
+SINGLE_TOLERANCE = 2e-5
+"""Measured rounding of R and T above which a table is computed in double precision."""
+
+_Step = Callable[[Observer | None], dict[str, Variable]]
 
 _SPECTRAL_DIMS = ("thickness_scale", "cos_theta", "wavelength_nm")
 _COLOUR_DIMS = ("thickness_scale", "cos_theta", "channel")
@@ -80,9 +87,18 @@ def tabulate_table(
     colouring = _colouring(spec, grid) if has_colour(grid.wavelength_nm) else None
     if spec.accuracy.delta_e is not None:
         grid = refined(solver, grid, _required(colouring), spec.accuracy.delta_e)
+    solver, certificate = _certified(solver, grid, colouring)
     variables = _variables(spec, solver, grid, colouring, wanted, observer)
-    certificate = certify(solver, grid, colouring)
     return Table(spec, _coords(grid, colouring), variables, _provenance(spec, device, solver, certificate))
+
+
+def _certified(solver: FilmSolver, grid: Grid, colouring: Colouring | None) -> tuple[FilmSolver, Certificate]:
+    """Certify a table before it is computed, in double precision where single turns out to round too much."""
+    certificate = certify(solver, grid, colouring)
+    if solver.precision is Precision.SINGLE and certificate.rounding_error_max > SINGLE_TOLERANCE:
+        solver = replace(solver, precision=Precision.DOUBLE)
+        certificate = certify(solver, grid, colouring)
+    return solver, certificate
 
 
 def _wanted(parts: Collection[Part] | None, grid: Grid) -> frozenset[Part]:
@@ -135,20 +151,43 @@ def _variables(
     wanted: frozenset[Part],
     observer: Observer | None,
 ) -> dict[str, Variable]:
-    variables: dict[str, Variable] = {}
+    steps: list[_Step] = []
     if Part.SPECTRUM in wanted:
-        for name, values in solver.intensities(grid, observer).items():
-            variables[name] = Variable(_SPECTRAL_DIMS, values, "1", _MEANINGS[name])
+        steps.append(partial(_spectra, solver.intensities, grid, "1"))
     if Part.SPECTRUM in wanted and spec.table.ellipsometry:
-        for name, values in solver.ellipsometry(grid, observer).items():
-            variables[name] = Variable(_SPECTRAL_DIMS, values, "rad", _MEANINGS[name])
+        steps.append(partial(_spectra, solver.ellipsometry, grid, "rad"))
     if Part.COLOUR in wanted and colouring is not None:
-        integrated = Grid(grid.thickness_scale, grid.cos_theta, colouring.quadrature_nm)
-        for side in solver.sides:
-            name, meaning = _COLOURS[side]
-            colour = solver.colour(integrated, colouring.weights, side, observer)
-            variables[name] = Variable(_COLOUR_DIMS, colour, "1", meaning)
+        steps += [partial(_colour, solver, grid, colouring, side) for side in solver.sides]
+    variables: dict[str, Variable] = {}
+    for done, step in enumerate(steps):
+        variables |= step(_within(observer, done, len(steps)))
     return variables
+
+
+def _within(observer: Observer | None, done: int, steps: int) -> Observer | None:
+    """Return an observer of one step among several."""
+    return None if observer is None else lambda fraction: observer((done + fraction) / steps)
+
+
+def _spectra(
+    compute: Callable[[Grid, Observer | None], dict[str, NDArray[np.floating]]],
+    grid: Grid,
+    unit: str,
+    observer: Observer | None,
+) -> dict[str, Variable]:
+    return {
+        name: Variable(_SPECTRAL_DIMS, values, unit, _MEANINGS[name])
+        for name, values in compute(grid, observer).items()
+    }
+
+
+def _colour(
+    solver: FilmSolver, grid: Grid, colouring: Colouring, side: Side, observer: Observer | None
+) -> dict[str, Variable]:
+    name, meaning = _COLOURS[side]
+    integrated = Grid(grid.thickness_scale, grid.cos_theta, colouring.quadrature_nm)
+    colour = solver.colour(integrated, colouring.weights, side, observer)
+    return {name: Variable(_COLOUR_DIMS, colour, "1", meaning)}
 
 
 def _coords(grid: Grid, colouring: Colouring | None) -> dict[str, Variable]:
