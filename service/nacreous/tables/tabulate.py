@@ -158,9 +158,11 @@ def _variables(
         steps.append(partial(_spectra, solver.ellipsometry, grid, "rad"))
     if Part.COLOUR in wanted and colouring is not None:
         steps += [partial(_colour, solver, grid, colouring, side) for side in solver.sides]
+    dtype = _PRECISIONS[spec.accuracy.precision].dtype
     variables: dict[str, Variable] = {}
     for done, step in enumerate(steps):
-        variables |= step(_within(observer, done, len(steps)))
+        for name, variable in step(_within(observer, done, len(steps))).items():
+            variables[name] = replace(variable, values=variable.values.astype(dtype, copy=False))
     return variables
 
 
