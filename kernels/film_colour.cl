@@ -3,7 +3,7 @@
 // The spectrum is integrated as it is computed and never stored. The host folds illuminant, observer,
 // quadrature and the matrix to the colour space into three weights a wavelength (padding has weight 0), so that
 // the colour is a sum. It passes TRANSMISSION 1 for the colour of T, 0 for that of R. One work-item: one row,
-// one scale and one angle (see film.cl); work size (rows of this launch).
+// see FILM_ARGUMENTS; work size (rows of this launch).
 #include "intensities.clh"
 
 // (s + p) / 2: the light is unpolarised.
@@ -15,22 +15,14 @@ INLINE lane unpolarised(intensities I) {
 #endif
 }
 
-kernel void film_colour(global const real *media,        // (M + 1, MEDIUM_ROWS, stride)
-                        global const real *critical_mu2, // (M + 1, stride / LANES)
-                        constant int *segments,          // (segment_count, 3)
-                        int segment_count, int layer_count, int stride,
-                        global const real *incident,     // (3, stride): n0, 1 / n0, 1 / wavelength in 1 / nm
-                        global const real *cos_theta,    // (angles)
-                        global const real *thickness_nm, // (scales, variants, M)
-                        global const real *weights,      // (variants), of sum 1
-                        int variants, int angles, int row_origin, int row_stop,
+kernel void film_colour(FILM_ARGUMENTS,
                         global const real *colour_weights, // (3, stride)
                         global real *colour) {             // (row_stop - row_origin, 3)
     int tile_row = get_global_id(0);
     int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
     if (row >= row_stop) return;
 
-    film_stack stack = {media, critical_mu2, segments, segment_count, layer_count, stride};
+    film_stack stack = FILM_STACK;
     thickness_nm += scale * variants * layer_count;
     lane red = (lane)(0), green = (lane)(0), blue = (lane)(0);
     for (int block = 0; block < stride / LANES; ++block) {

@@ -4,21 +4,13 @@
 // [0, pi / 2], Delta in (-pi, pi]. Rows, work-items and launches as in film.cl, one thickness a scale.
 #include "film.clh"
 
-kernel void film_ellipsometry(global const real *media,        // (M + 1, MEDIUM_ROWS, stride)
-                              global const real *critical_mu2, // (M + 1, stride / LANES)
-                              constant int *segments,          // (segment_count, 3)
-                              int segment_count, int layer_count, int stride,
-                              global const real *incident,     // (3, stride): n0, 1 / n0, 1 / wavelength in 1 / nm
-                              global const real *cos_theta,    // (angles)
-                              global const real *thickness_nm, // (scales, variants, M)
-                              global const real *weights,      // unused: variants is 1
-                              int variants, int angles, int row_origin, int row_stop,
+kernel void film_ellipsometry(FILM_ARGUMENTS,
                               global real *psi, global real *Delta) { // (row_stop - row_origin, stride)
     int block = get_global_id(0), tile_row = get_global_id(1);
     int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
     if (row >= row_stop || block * LANES >= stride) return;
 
-    film_stack stack = {media, critical_mu2, segments, segment_count, layer_count, stride};
+    film_stack stack = FILM_STACK;
     incidence in = incidence_at(incident, stride, block, cos_theta[angle]);
     admittance substrate = admittance_of(stack, layer_count, in);
     magnitude size = no_magnitude();

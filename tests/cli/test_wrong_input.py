@@ -66,7 +66,7 @@ PHYSICS = {
     "a cosine below 0": (table('"cos_theta": [-0.5, 1]'), "table.cos_theta"),
     "one cosine": (table('"cos_theta": 1'), "table.cos_theta"),
     "too many cosines": (table('"cos_theta": 1000000'), "table.cos_theta"),
-    "a step of 0": (table('"wavelength_nm": {"start": 400, "stop": 700, "step": 0}'), "table.wavelength_nm.step"),
+    "a step of 0": (table('"wavelength_nm": {"start": 4e2, "stop": 7e2, "step": 0}'), "wavelength_nm.step"),
     "wavelengths without a colour": (table('"wavelength_nm": [900, 1000]'), "table.wavelength_nm"),
     "an unknown quantity": (table('"quantity": "brightness"'), "table.quantity"),
     "an unknown illuminant": (film(rest=', "colour": {"illuminant": "D64"}'), "colour.illuminant"),

@@ -97,7 +97,7 @@ def _structure(stack: Stack) -> str:
 
 def _entry(entry: Layer | Group) -> str:
     if isinstance(entry, Layer):
-        return f"{entry.thickness_nm:g} nm {_material(entry.material)}"
+        return f"{entry.thickness_nm:g} nm of {_material(entry.material)}"
     return f"{entry.repeat} x ({' + '.join(map(_entry, entry.layers))})"
 
 
