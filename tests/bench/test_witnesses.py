@@ -8,6 +8,7 @@ import pytest
 from bench import complex_recursion, real_recursion
 from bench.page import render
 from bench.roofline import Roofline
+from bench.scaling import Figure
 from bench.stack import BenchStack, bench_stack
 from bench.timing import Measurement, Missing, largest_error, measure
 from bench.witnesses import Witness, witnesses
@@ -66,10 +67,12 @@ def test_the_page_states_rates_ratios_and_shares() -> None:
         Measurement("ours", 300e6, 2e-6),
         [Measurement("theirs", 20e6, 1e-6), Missing("absent", "jax is not installed")],
         Roofline("a device", 300e9, 16e9),
+        [Figure("a texture", "0.2 s", "0.25 s")],
         stack=bench_stack(),
         flop_per_layer_evaluation=100,
     )
     assert "| theirs | 20 | 15 x | 1.0e-06 |" in page
     assert "| absent | jax is not installed | | |" in page
     assert "| **ours** | **300** | | **2.0e-06** |" in page
+    assert "| a texture | 0.2 s | 0.25 s |" in page
     assert "| multiply-adds | 300 GFLOP/s | 30.0 GFLOP/s | 10% |" in page

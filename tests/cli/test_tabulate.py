@@ -83,15 +83,15 @@ def test_an_option_changes_the_spec(run: Run) -> None:
     assert ids[0] != ids[1]
 
 
-@pytest.mark.parametrize("folder", ["film.toml", "film.toml/below", "n" * 300, "/proc/here"])
+@pytest.mark.parametrize("folder", ["film.toml", "film.toml/below", "n" * 300, "/dev/null/here"])
 def test_a_folder_that_cannot_be_written_is_refused_at_once(run: Run, tmp_path: Path, folder: str) -> None:
     """One message that names the option; what was there is as it was."""
     (tmp_path / "film.toml").write_text(FILM)
     done = run("tabulate", "film.toml", "-o", folder)
-    assert done.returncode in (1, 2)
+    assert done.returncode == 2
     assert done.stdout == ""
     assert done.stderr.count("\n") == 1
-    assert "Traceback" not in done.stderr
+    assert "--output: expected a folder that can be written, got " in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["film.toml"]
 
 

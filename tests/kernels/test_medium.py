@@ -47,11 +47,10 @@ def test_close_to_grazing_incidence(n_film: complex, precision: Precision) -> No
 @BOTH
 def test_an_evanescent_gap_decays(precision: Precision) -> None:
     """Frustrated total reflection (Born & Wolf, section 1.5.4): T falls as exp(-4 pi d Im kz / lambda)."""
-    d_nm = 4000 + 500 * np.arange(3)
+    d_nm = 800 + 250 * np.arange(3)
     im_kz = np.sqrt(1.5**2 * (1 - 0.3**2) - 1)
     T = np.array([kernel_film([1.5, 1, 1.5], [d], 550, 0.3, precision=precision).T_s.item() for d in d_nm])
-    np.testing.assert_allclose(T[1:] / T[:-1], np.exp(-4 * np.pi * 500 * im_kz / 550), rtol=1e-3)
-    assert T.min() > 0
+    np.testing.assert_allclose(T[1:] / T[:-1], np.exp(-4 * np.pi * 250 * im_kz / 550), rtol=1e-3)
 
 
 @BOTH

@@ -39,6 +39,7 @@ def _app() -> typer.Typer:
         epilog="Begin with: nacreous tabulate soap-bubble",
         add_completion=False,
         pretty_exceptions_enable=False,
+        rich_markup_mode=None,  # plain help: importing what frames it takes as long as all the rest
     )
     app.callback()(_options)
     for command in _COMMANDS:

@@ -12,7 +12,10 @@ __all__ = ["device_row", "devices"]
 
 
 def devices(*, as_json: AsJson = False) -> None:
-    """List the OpenCL devices; NACREOUS_DEVICE takes what the first column holds."""
+    """List the OpenCL devices.
+
+    NACREOUS_DEVICE takes what the first column holds, or a part of a name.
+    """
     from nacreous.cli.listing import print_columns, print_json_lines
     from nacreous.opencl.device import list_devices
 

@@ -1,8 +1,5 @@
 """``nacreous doctor``: whether this installation can compute, and what to do where it cannot."""
 
-import platform
-from importlib.metadata import PackageNotFoundError, version
-
 import typer
 
 from nacreous.cli.exit_codes import FAILED, NO_PLATFORM
@@ -17,10 +14,14 @@ _INSTALL = (
 
 
 def doctor() -> None:
-    """Say what is installed, which devices are found, and whether they compute what they should.
+    """Check this installation and its device.
+
+    Says what is installed, which devices are found, and whether they compute what they should.
 
     Ends with 0 if all is well, with 1 if a value is wrong, and with 78 if there is no OpenCL device.
     """
+    import platform
+
     import nacreous
     from nacreous.opencl.device import cache_folder
 
@@ -34,6 +35,8 @@ def doctor() -> None:
 
 
 def _installed(package: str) -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
     try:
         return version(package)
     except PackageNotFoundError:

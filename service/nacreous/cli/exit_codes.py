@@ -1,6 +1,6 @@
 """How the program ends: the one place that turns an error into an exit code and a message.
 
-0 done, 1 failed, 2 a wrong spec or option, 130 interrupted.
+0 done, 1 failed, 2 a wrong spec or option or a table larger than the byte budget, 130 interrupted.
 """
 
 import sys
@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from typer.exceptions import TyperException
 
-from nacreous.errors import NacreousError, SpecError
+from nacreous.errors import BudgetError, NacreousError, SpecError
 
 __all__ = ["FAILED", "INTERRUPTED", "NO_PLATFORM", "WRONG_INPUT", "exit_code", "report"]
 
@@ -21,7 +21,13 @@ INTERRUPTED = 130
 """128 + SIGINT, as a shell reports it."""
 
 _CODES: Mapping[type[BaseException], int] = MappingProxyType(
-    {KeyboardInterrupt: INTERRUPTED, SpecError: WRONG_INPUT, NacreousError: FAILED, OSError: FAILED}
+    {
+        KeyboardInterrupt: INTERRUPTED,
+        SpecError: WRONG_INPUT,
+        BudgetError: WRONG_INPUT,
+        NacreousError: FAILED,
+        OSError: FAILED,
+    }
 )
 """The first class that an error belongs to decides."""
 

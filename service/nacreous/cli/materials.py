@@ -17,7 +17,7 @@ _SHOWN_NM = (400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0)
 
 def materials() -> typer.Typer:
     """Return the group of commands."""
-    group = typer.Typer(help="Named materials: the project's own, and refractiveindex.info.")
+    group = typer.Typer(help="Find and show named materials.")
     group.callback(invoke_without_command=True)(_own)
     group.command()(search)
     group.command()(show)

@@ -14,7 +14,10 @@ def presets(
     *,
     as_json: AsJson = False,
 ) -> None:
-    """List the presets, or print one to begin a spec of your own with."""
+    """List the presets, or print one.
+
+    A preset that is printed is a spec to begin your own with.
+    """
     from nacreous.cli.listing import print_columns, print_json_lines
     from nacreous.tables.presets import preset, preset_names
 

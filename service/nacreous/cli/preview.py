@@ -17,7 +17,10 @@ def preview(
     ] = None,
     assignments: Assignments = None,
 ) -> None:
-    """Draw a film: swatch over angle and thickness, spectra, and the path of its colour."""
+    """Draw a film: swatch, spectra, chromaticity.
+
+    The swatch runs over angle and thickness, and so does the path of the chromaticity.
+    """
     from nacreous.cli.output import check_folder, file_stem
     from nacreous.cli.preview_figure import draw
     from nacreous.cli.preview_tables import preview_tables

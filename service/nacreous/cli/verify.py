@@ -19,9 +19,10 @@ def verify(
     *,
     as_json: AsJson = False,
 ) -> None:
-    """Read files again: checksum, finite values, energy, and where they come from.
+    """Check files that Nacreous wrote.
 
-    Prints one line a file, and ends with 1 if any is bad.
+    Looks at checksum, finite values, energy and provenance. Prints one line a file, and ends with 1 if any
+    is bad.
     """
     from nacreous.cli.listing import print_json_lines
     from nacreous.formats.verify import verify as examine

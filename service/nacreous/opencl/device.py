@@ -5,6 +5,7 @@ PoCL on the CPU is the default; a GPU is used where it is asked for, with ``NACR
 
 import functools
 import os
+import shutil
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -17,6 +18,8 @@ from nacreous.opencl.precision import Precision
 __all__ = ["Device", "DeviceInfo", "cache_folder", "list_devices", "open_device"]
 
 _INSTALL = "install PoCL with `pip install pocl-binary-distribution`, or Intel's runtime with nacreous[intel]"
+_POCL = "Portable Computing Language"
+"""Name of PoCL's platform. It ends the process if it cannot link, so that is asked first."""
 _WIDTHS = (16, 8, 4, 1)
 """Lane widths that the kernels are built for."""
 
@@ -108,6 +111,8 @@ def open_device(selector: str | None = None) -> Device:
 @functools.cache
 def _open(selector: str | None) -> Device:
     info, device = _choose(selector)
+    if _POCL in info.platform and shutil.which("ld") is None:
+        raise DeviceError("PoCL links kernels with ld, which is not installed; install binutils and gcc")
     cl = _pyopencl()
     try:
         context = cl.Context([device])
@@ -119,7 +124,7 @@ def _open(selector: str | None) -> Device:
 def _choose(selector: str | None) -> tuple[DeviceInfo, Any]:
     found = _devices()
     if selector is None:
-        return next((pair for pair in found if "Portable Computing" in pair[0].platform), found[0])
+        return next((pair for pair in found if _POCL in pair[0].platform), found[0])
     for info, device in found:
         if selector == info.selector or selector.casefold() in f"{info.platform} {info.name}".casefold():
             return info, device
@@ -188,7 +193,6 @@ def _usable_cache_folder() -> Path:
 def _temporary_folder() -> Path:
     """Where kernels are compiled on a machine whose home cannot be written; gone with the process."""
     import atexit
-    import shutil
     import tempfile
 
     folder = Path(tempfile.mkdtemp(prefix="nacreous-kernels-"))
