@@ -7,7 +7,6 @@ stack of these kinds is ever refused.
 from collections.abc import Callable
 
 import numpy as np
-import pytest
 
 from nacreous.opencl.device import Device
 from nacreous.opencl.film import film_intensities
@@ -15,7 +14,7 @@ from nacreous.opencl.film_problem import FilmProblem, Segment
 from nacreous.opencl.precision import Precision
 from nacreous.tables.film import phase_precision
 
-ANGLES, WAVELENGTHS, STACKS_A_KIND = 40, 512, 1000
+ANGLES, WAVELENGTHS, STACKS_A_KIND = 40, 512, 1300
 SAMPLES = 100_000_000
 LEAST, MOST = -1e-6, 1 + 2e-5
 
@@ -55,7 +54,7 @@ KINDS = {
     "metallic": (metallic, 1.0),
     "absorbing": (absorbing, 1.0),
     "total reflection": (gaps, 2.0),
-    "anything": (anything, 1.5),
+    "anything": (anything, 1.0),
 }
 
 
@@ -81,27 +80,26 @@ def random_problem(rng: np.random.Generator, draw: Draw, most_incident: float) -
     )
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_hundred_million_samples(kind: str, device: Device) -> None:
+def test_a_hundred_million_samples(device: Device) -> None:
     """R and T are finite and within [-1e-6, 1 + 2e-5], R + T <= 1 + 2e-5, and = 1 where nothing absorbs."""
-    rng = np.random.default_rng(sorted(KINDS).index(kind))
-    draw, most_incident = KINDS[kind]
-    samples = 0
-    for _ in range(STACKS_A_KIND):
-        problem = random_problem(rng, draw, most_incident)
-        precision = phase_precision(problem, Precision.SINGLE)
-        got = film_intensities(device, problem, precision)
-        assert_lawful(got, lossless=not problem.index.imag.any())
-        samples += got["R_s"].size
-    assert samples * len(KINDS) >= SAMPLES
+    single_samples = 0
+    for kind, (draw, most_incident) in KINDS.items():
+        rng = np.random.default_rng(sorted(KINDS).index(kind))
+        for number in range(STACKS_A_KIND):
+            problem = random_problem(rng, draw, most_incident)
+            precision = phase_precision(problem, Precision.SINGLE)
+            got = film_intensities(device, problem, precision)
+            assert_lawful(got, f"{kind} {number}", lossless=not problem.index.imag.any())
+            single_samples += got["R_s"].size if precision is Precision.SINGLE else 0
+    assert single_samples >= SAMPLES
 
 
-def assert_lawful(got: dict[str, np.ndarray], *, lossless: bool) -> None:
+def assert_lawful(got: dict[str, np.ndarray], stack: str, *, lossless: bool) -> None:
     """Assert the bounds; a comparison with NaN is False, so that no value escapes them."""
-    for values in got.values():
-        assert values.min() >= LEAST
-        assert values.max() <= MOST
+    for name, values in got.items():
+        assert values.min() >= LEAST, (stack, name)
+        assert values.max() <= MOST, (stack, name)
     for R, T in (("R_s", "T_s"), ("R_p", "T_p")):
         total = got[R] + got[T]
-        assert total.max() <= MOST
-        assert not lossless or total.min() >= 2 - MOST
+        assert total.max() <= MOST, (stack, R, T)
+        assert not lossless or total.min() >= 2 - MOST, (stack, R, T)

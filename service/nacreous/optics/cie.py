@@ -17,7 +17,7 @@ __all__ = ["colour_matching_functions", "illuminant_power", "write_tables"]
 FloatArray = NDArray[np.float64]
 
 OBSERVERS = ("CIE 1931 2 Degree Standard Observer", "CIE 1964 10 Degree Standard Observer")
-ILLUMINANTS = ("A", "C", "D50", "D55", "D60", "D65", "D75", "E")
+ILLUMINANTS = ("A", "C", "D50", "D55", "D65", "D75", "E")
 
 _OBSERVER_TABLE = Path(__file__).with_name("cie_observers.csv")
 _ILLUMINANT_TABLE = Path(__file__).with_name("cie_illuminants.csv")

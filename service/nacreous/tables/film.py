@@ -36,6 +36,9 @@ SINGLE_PRECISION_PHASE = 200.0
 A phase of 200 is rounded to 1e-5 of a radian in 24 bits; the goldens with larger ones show errors above 1e-5.
 """
 
+CLEAR_K = 1e-3
+"""Below this k a layer damps a resonance too little for single precision."""
+
 LEAST, MOST = -1e-6, 1 + 2e-5
 """Bounds of R and T before clamping; what lies outside is a fault and not rounding."""
 
@@ -101,14 +104,30 @@ def optical_thickness_nm(problem: FilmProblem) -> FloatArray:
 
 
 def phase_precision(problem: FilmProblem, asked: Precision) -> Precision:
-    """Return `asked`, or double precision where a phase is larger than single precision can hold."""
+    """Return `asked`, or double precision where single cannot hold a phase or a resonance of the film."""
+    lost = _largest_phase(problem) > SINGLE_PRECISION_PHASE or _traps_light(problem)
+    return Precision.DOUBLE if lost else asked
+
+
+def _largest_phase(problem: FilmProblem) -> float:
+    """Largest 2 pi |n| d / lambda of a layer times its repeats, in radians; 0 for a thick layer."""
     thickest = problem.thickness_nm.max(axis=(0, 1))  # (M,)
     repeats = np.zeros(thickest.size)
     for segment in problem.segments:
         repeats[segment.first : segment.stop] = segment.repeat
     size = np.abs(problem.index[1:-1])  # (M, L)
     phase = 2 * np.pi * (size / problem.wavelength_nm) * (thickest * repeats)[:, None]
-    return Precision.DOUBLE if phase.max() > SINGLE_PRECISION_PHASE else asked
+    return float(phase.max())
+
+
+def _traps_light(problem: FilmProblem) -> bool:
+    """Whether light from the incident medium meets a clear medium that is less dense.
+
+    Between two such layers it can be totally reflected to and fro, in resonances as narrow as one likes:
+    single precision moves them by more than their width, and R and T are off by up to 0.03 (measured).
+    """
+    clear = problem.index[1:].imag < CLEAR_K
+    return bool((clear & (problem.index[1:].real < problem.index[0].real)).any())
 
 
 def checked_intensities(

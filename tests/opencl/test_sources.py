@@ -1,0 +1,77 @@
+"""Kernel sources: includes, line numbers, and that everything builds."""
+
+from pathlib import Path
+
+import pytest
+
+from nacreous.errors import DeviceError
+from nacreous.opencl import sources
+from nacreous.opencl.device import Device
+from nacreous.opencl.precision import Precision
+from nacreous.opencl.program import Build, kernel_of
+from nacreous.paths import KERNELS
+
+NUMBERS = {
+    "film": ("INCOHERENT", "PERIODIC"),
+    "film_colour": ("INCOHERENT", "PERIODIC", "TRANSMISSION"),
+    "film_ellipsometry": ("INCOHERENT", "PERIODIC"),
+}
+
+
+def test_every_include_is_expanded() -> None:
+    """No include is left, and every header that is named is there."""
+    for kernel in sources.kernel_names():
+        text = sources.complete_source(kernel)
+        assert "#include" not in text
+        assert '#line 1 "lanes.clh"' in text
+
+
+def test_every_header_belongs_to_a_kernel() -> None:
+    """A header that no kernel includes is dead."""
+    text = "".join(map(sources.complete_source, sources.kernel_names()))
+    assert all(f'"{header.name}"' in text for header in KERNELS.glob("*.clh"))
+
+
+@pytest.mark.parametrize("kernel", sources.kernel_names())
+@pytest.mark.parametrize("precision", Precision)
+@pytest.mark.parametrize("lanes", [1, 4, 8, 16])
+def test_every_kernel_builds_without_a_warning(
+    kernel: str, precision: Precision, lanes: int, device: Device
+) -> None:
+    """With -Werror, for every precision and lane width; the options on and off."""
+    for switch in (0, 1):
+        numbers = tuple((name, switch) for name in NUMBERS[kernel])
+        assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel
+
+
+def test_a_compile_error_names_file_and_line(
+    device: Device, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The third line of a header that the second line of a kernel includes."""
+    (tmp_path / "broken.clh").write_text("// one\n// two\nint f(void) { return nonsense; }\n")
+    (tmp_path / "broken.cl").write_text('// first\n#include "broken.clh"\nkernel void broken(void) {}\n')
+    monkeypatch.setattr(sources, "KERNELS", tmp_path)
+    with pytest.raises(DeviceError, match=r"broken\.clh:3:.*nonsense"):
+        kernel_of(device, Build("broken", Precision.SINGLE, 1))
+
+
+def test_lines_after_an_include_count_on(
+    device: Device, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An error in the kernel's own fourth line, two lines below the include."""
+    (tmp_path / "fine.clh").write_text("// one\n// two\n")
+    text = '// first\n#include "fine.clh"\nkernel void late(void) {\n    nonsense();\n}\n'
+    (tmp_path / "late.cl").write_text(text)
+    monkeypatch.setattr(sources, "KERNELS", tmp_path)
+    with pytest.raises(DeviceError, match=r"late\.cl:4:.*nonsense"):
+        kernel_of(device, Build("late", Precision.SINGLE, 1))
+
+
+def test_the_hash_is_of_the_complete_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A change in a header changes the hash of the kernels."""
+    (tmp_path / "part.clh").write_text("// one\n")
+    (tmp_path / "whole.cl").write_text('#include "part.clh"\n')
+    monkeypatch.setattr(sources, "KERNELS", tmp_path)
+    before = sources.kernels_hash()
+    (tmp_path / "part.clh").write_text("// two\n")
+    assert sources.kernels_hash() != before

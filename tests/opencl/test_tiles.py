@@ -1,0 +1,66 @@
+"""Launches in tiles: every row once, whatever the tiles' sizes, and the observer's say in it."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from nacreous.opencl import tiles
+from nacreous.opencl.device import Device
+from nacreous.opencl.film import film_intensities
+from nacreous.opencl.film_problem import FilmProblem, Segment
+from nacreous.opencl.precision import Precision
+from nacreous.opencl.tiles import row_tiles
+
+
+@given(rows=st.integers(1, 5000), evaluations=st.integers(1, 10**9), size=st.integers(1, 10**8))
+def test_tiles_cover_every_row_once(rows: int, evaluations: int, size: int) -> None:
+    """In order, without gap or overlap, and none is larger than its buffers may be."""
+    told: list[float] = []
+    covered = 0
+    for tile in row_tiles(rows, evaluations, size, told.append):
+        assert tile.origin == covered
+        assert tile.rows * size <= max(size, 32 * 2**20)
+        covered += tile.rows
+    assert covered == rows
+    assert told == sorted(told)
+    assert told[-1] == 1
+
+
+def _problem() -> FilmProblem:
+    return FilmProblem(
+        wavelength_nm=np.linspace(400, 700, 37),
+        index=np.array([1.0, 2.1 + 0.01j, 1.5])[:, None] * np.ones(37),
+        segments=(Segment(0, 1, 1),),
+        thickness_nm=np.linspace(100, 900, 7).reshape(7, 1, 1),
+        weights=np.ones(1),
+        cos_theta=np.linspace(0, 1, 11),
+    )
+
+
+@pytest.mark.parametrize("first", [1, 5_000, 10**9])
+def test_results_do_not_depend_on_the_tiles(
+    first: int, device: Device, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A row at a time, a few, or all at once: the same bytes."""
+    whole = film_intensities(device, _problem(), Precision.SINGLE)
+    monkeypatch.setattr(tiles, "_FIRST_TILE_EVALUATIONS", first)
+    monkeypatch.setattr(tiles, "_MOST_GROWTH", 1)
+    tiled = film_intensities(device, _problem(), Precision.SINGLE)
+    for name, values in whole.items():
+        assert values.tobytes() == tiled[name].tobytes()
+
+
+def test_what_an_observer_raises_ends_the_work(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After the first tile, and the device works on."""
+    monkeypatch.setattr(tiles, "_FIRST_TILE_EVALUATIONS", 1)
+    told: list[float] = []
+
+    def stop(fraction: float) -> None:
+        told.append(fraction)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        film_intensities(device, _problem(), Precision.SINGLE, observer=stop)
+    assert told == [1 / 77]
+    assert np.isfinite(film_intensities(device, _problem(), Precision.SINGLE)["R_s"]).all()

@@ -1,0 +1,61 @@
+"""A table's id: what decides it, and what does not."""
+
+import pytest
+
+from nacreous.opencl import sources
+from nacreous.tables.identity import table_id
+from nacreous.tables.presets import preset
+from nacreous.tables.spec import Spec
+
+FILM = {
+    "stack": {
+        "incident": "air",
+        "substrate": {"n": 1.5},
+        "layers": [{"material": {"n": 2.0}, "thickness_nm": 420}],
+    },
+}
+
+
+def _id(**sections: object) -> str:
+    return table_id(Spec.model_validate(FILM | sections))
+
+
+def test_labels_do_not_matter() -> None:
+    """Name, description and source are for people."""
+    assert _id() == _id(name="a", description="b", source="c")
+
+
+@pytest.mark.parametrize(
+    "sections",
+    [
+        {"table": {"cos_theta": 65}},
+        {"table": {"wavelength_nm": {"start": 350, "stop": 750, "step": 4}}},
+        {"table": {"ellipsometry": True}},
+        {"colour": {"illuminant": "D50"}},
+        {"accuracy": {"precision": "double"}},
+        {"accuracy": {"delta_e": 1.0}},
+        {"stack": FILM["stack"] | {"substrate": {"n": 1.5, "k": 1e-9}}},
+    ],
+)
+def test_everything_else_matters(sections: dict[str, object]) -> None:
+    """Any field that could change a byte changes the id."""
+    assert _id(**sections) != _id()
+
+
+def test_a_materials_data_matters(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same name with other n and k is another table: the sampled indices are hashed."""
+    from nacreous.optics import stack
+
+    spec = preset("silica-on-silicon")
+    before = table_id(spec)
+    known = stack.refractive_index
+    monkeypatch.setattr(stack, "refractive_index", lambda material, nm: known(material, nm) * (1 + 1e-12))
+    assert table_id(spec) != before
+
+
+def test_the_kernels_matter(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another kernel text is another table."""
+    before = _id()
+    known = sources.complete_source
+    monkeypatch.setattr(sources, "complete_source", lambda kernel: known(kernel) + "// another\n")
+    assert _id() != before
