@@ -81,9 +81,7 @@ def kernel_film(
     lanes: int | None = None,
 ) -> Intensities:
     """R and T of a film as kernels/film.cl gives them, (A, L) each, not clamped."""
-    problem = plain_problem(
-        index, thickness_nm, wavelength_nm, cos_theta, groups=groups, coherent=coherent
-    )
+    problem = plain_problem(index, thickness_nm, wavelength_nm, cos_theta, groups=groups, coherent=coherent)
     if not groups and coherent is None:
         problem = one_run(problem)
     computed = film_intensities(open_device(), problem, precision, lanes=lanes)

@@ -1,6 +1,5 @@
 """What a table costs beyond one film: periods, lookup textures, whole processes."""
 
-import os
 import statistics
 import subprocess
 import sys
@@ -25,6 +24,13 @@ RUNS = 9
 
 PROGRAM = str(Path(sys.executable).with_name("nacreous"))
 TABULATE = (PROGRAM, "tabulate", "paper/figure-3", "--format", "exr", "-o")
+
+
+LAUNCHER = """
+import resource, subprocess, sys
+subprocess.run(sys.argv[1:], check=True)
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
+"""
 
 
 @dataclass(frozen=True)
@@ -120,12 +126,8 @@ def _run(*arguments: str) -> None:
 
 
 def _peak_bytes(*arguments: str) -> int:
-    """Largest resident set of a process, by the operating system's account of its own child."""
-    child = os.posix_spawn(arguments[0], arguments, os.environ, file_actions=_SILENT)
-    _, status, usage = os.wait4(child, 0)
-    if status:
-        raise RuntimeError(f"{' '.join(arguments)} ended with status {status}")
-    return usage.ru_maxrss * 1024
-
-
-_SILENT = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
+    """Largest resident set of a process: of the child of a small one, for a child begins with its parent's."""
+    done = subprocess.run(
+        [sys.executable, "-c", LAUNCHER, *arguments], check=True, capture_output=True, text=True
+    )
+    return int(done.stdout.split()[-1]) * 1024

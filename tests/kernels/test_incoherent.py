@@ -1,4 +1,4 @@
-"""kernels/incoherent.clh: thick layers, across which intensities add (Byrnes, arXiv 1603.02720, section 6)."""
+"""kernels/incoherent.clh: thick layers, across which intensities add (Byrnes, arXiv 1603.02720, 6)."""
 
 import itertools
 
@@ -81,9 +81,8 @@ def test_a_pile_of_plates(plates: int, precision: Precision) -> None:
     mu, n = 0.6, 1.5
     inner = np.sqrt(1 - (1 - mu**2) / n**2)
     count = 2 * plates - 1
-    got = kernel_film(
-        [1, *[n, 1.0] * plates][:-1] + [1], [1e6] * count, 550, mu, coherent=[False] * count, precision=precision
-    )  # fmt: skip
+    pile, thick = [1, *[n, 1.0] * plates], [False] * count
+    got = kernel_film(pile, [1e6] * count, 550, mu, coherent=thick, precision=precision)
     for rho, R, T in (
         (((mu - n * inner) / (mu + n * inner)) ** 2, got.R_s, got.T_s),
         (((n * mu - inner) / (n * mu + inner)) ** 2, got.R_p, got.T_p),

@@ -17,7 +17,9 @@ thickness_nm = st.floats(0.0, 400.0)
 cosine = st.floats(0.0, 1.0)
 
 
-def layers(index: st.SearchStrategy[complex], most: int = 8) -> st.SearchStrategy[list[tuple[complex, float]]]:
+def layers(
+    index: st.SearchStrategy[complex], most: int = 8
+) -> st.SearchStrategy[list[tuple[complex, float]]]:
     """Draw one to `most` layers, each an index and a thickness in nm."""
     return st.lists(st.tuples(index, thickness_nm), min_size=1, max_size=most)
 
@@ -65,7 +67,9 @@ def test_a_reversed_stack_transmits_the_same(
     The way back starts at the refracted angle, n_s sin theta_s = n_0 sin theta_0, so that both media must be
     clear; the layers need not be.
     """
-    mu = np.sqrt(1 - (1 - mu**2) * min(1, n_s / n_0) ** 2 * 0.98)  # short of total reflection by the substrate
+    mu = np.sqrt(
+        1 - (1 - mu**2) * min(1, n_s / n_0) ** 2 * 0.98
+    )  # short of total reflection by the substrate
     mu_back = np.sqrt(1 - (1 - mu**2) * (n_0 / n_s) ** 2)
     n, d_nm = of(stack)
     there = kernel_film([n_0, *n, n_s], d_nm, WAVELENGTH_NM, mu, precision=precision)

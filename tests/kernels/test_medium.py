@@ -12,7 +12,7 @@ BOTH = pytest.mark.parametrize("precision", list(Precision))
 
 @BOTH
 def test_a_layer_at_its_critical_angle(precision: Precision) -> None:
-    """n = 1.5 / 1.2 / 1.5 at mu = 0.6 is exactly critical: R_s .868541, R_p .730182 (60 digits)."""
+    """Indices 1.5 / 1.2 / 1.5 at mu = 0.6 is exactly critical: R_s .868541, R_p .730182 (60 digits)."""
     got = kernel_film([1.5, 1.2, 1.5], [500], 550, 0.6, precision=precision)
     assert got.R_s.item() == pytest.approx(0.868541, abs=1e-6)
     assert got.R_p.item() == pytest.approx(0.730182, abs=1e-6)

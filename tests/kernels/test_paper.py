@@ -49,7 +49,7 @@ def test_equation_7_as_printed_does_not() -> None:
 
 
 def test_equation_8_as_printed_does_not() -> None:
-    """It has the film's angle in place of the substrate's: right at normal incidence, 5 % off at 60 degrees."""
+    """It has the film's angle in place of the substrate's: right at mu = 1, 5 % off at 60 degrees."""
     errors = []
     for cos_theta in (1.0, 0.5):
         single = paper.single_film((1, 2.0, 1.5), 420, WAVELENGTH_NM, cos_theta)[0]

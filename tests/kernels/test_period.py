@@ -74,7 +74,9 @@ def test_a_quarter_wave_mirror(pairs: int, precision: Precision) -> None:
     assert got.R_s.item() == pytest.approx(expected, abs=tolerance(precision))
 
 
-def tabulated(n: list[complex], d_nm: list[float], mu: np.ndarray, repeat: int, asked: Precision) -> np.ndarray:
+def tabulated(
+    n: list[complex], d_nm: list[float], mu: np.ndarray, repeat: int, asked: Precision
+) -> np.ndarray:
     """Periods on glass in the precision that a table of them has, (4, A, L)."""
     groups: Groups = [(0, len(n), repeat)]
     precision = phase_precision(plain_problem([1, *n, 1.5], d_nm, WAVELENGTH_NM, mu, groups=groups), asked)

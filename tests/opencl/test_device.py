@@ -64,6 +64,18 @@ def test_no_platform_is_one_clear_message(tmp_path: Path) -> None:
     assert "pip install pocl-binary-distribution" in done.stdout or "Portable Computing" in done.stdout
 
 
+def test_kernels_are_kept_in_a_folder_of_our_own(tmp_path: Path) -> None:
+    """XDG Base Directory: below $XDG_CACHE_HOME; another program's entry would end the process."""
+    done = _run(
+        "import os; from nacreous.opencl.device import list_devices; list_devices();"
+        "print(os.environ['POCL_CACHE_DIR'])",
+        XDG_CACHE_HOME=str(tmp_path),
+    )
+    folder = Path(done.stdout.strip())
+    assert folder.is_relative_to(tmp_path / "nacreous"), done.stderr
+    assert folder.is_dir()
+
+
 def test_an_unwritable_home_is_no_obstacle(tmp_path: Path) -> None:
     """A cache folder that is a file: kernels are compiled in a temporary folder, which is gone afterwards."""
     (tmp_path / "nacreous").write_text("in the way")

@@ -20,7 +20,7 @@ def test_observers_are_those_of_colour_science(observer: str) -> None:
 
 @pytest.mark.parametrize("illuminant", [*ILLUMINANTS, "FL2"])
 def test_illuminants_are_those_of_colour_science(illuminant: str) -> None:
-    """CIE 15, tables of relative spectral power; between its samples colour-science is interpolated linearly."""
+    """CIE 15, tables of relative spectral power, linear between the samples of colour-science."""
     import colour
 
     wavelength_nm, power = illuminant_power(illuminant)

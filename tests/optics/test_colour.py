@@ -48,7 +48,7 @@ def test_xyz_agrees_with_colour_science(illuminant: str, observer: str) -> None:
 
 @pytest.mark.parametrize("space", SPACES)
 def test_matrices_follow_from_the_primaries(space: str) -> None:
-    """SMPTE RP 177: the columns are the primaries, scaled to sum to the white; and the standards' own digits."""
+    """SMPTE RP 177: the columns are the primaries, scaled to sum to the white."""
     import colour
 
     standard = colour.RGB_COLOURSPACES[SPACES[space]]
@@ -104,4 +104,6 @@ def test_a_colour_needs_what_the_observer_sees() -> None:
     """The range is where observer and illuminant overlap: 360 to 780 nm for D65 to 780."""
     first, last = colour_system("D65", OBSERVER, "Rec.709").range_nm
     assert (first, last) == (360, 780)
-    assert not colour_system("D65", OBSERVER, "Rec.709").weights(np.array([400.0, 550, 700, 900]))[:, -1].any()
+    assert (
+        not colour_system("D65", OBSERVER, "Rec.709").weights(np.array([400.0, 550, 700, 900]))[:, -1].any()
+    )

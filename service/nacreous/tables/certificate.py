@@ -1,13 +1,15 @@
 """What a table's numbers are worth: its errors, measured between the texels.
 
 A reader of the table interpolates it linearly. The certificate does the same at the middle of cells, where
-linear interpolation is at its worst, and compares with the film itself in double precision there. The cells
-are spread over the whole table; the texels at their corners are computed as the table's own are.
+linear interpolation is at its worst, and compares with the film itself in double precision there. All cells
+of a small table are measured, of a large one some that are spread over all of it: their number is stated. The
+texels at their corners are computed as the table's own are.
 """
 
 import json
+import math
 from dataclasses import asdict, dataclass
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +17,14 @@ from numpy.typing import NDArray
 from nacreous.opencl.film_colour import Side
 from nacreous.optics.colour import ColourSystem, lab
 from nacreous.optics.delta_e import delta_e_2000
+from nacreous.tables.colour import Colouring
 from nacreous.tables.film import Grid
 from nacreous.tables.solver import FilmSolver
 
 __all__ = [
     "Cells",
     "Certificate",
-    "Colouring",
+    "all_colour_cells",
     "certify",
     "colour_cells",
     "colour_differences",
@@ -30,13 +33,13 @@ __all__ = [
 
 FloatArray = NDArray[np.float64]
 
-GRAZING = 0.01
-"""Cosine below which colour differences are stated apart: within 0.6 degrees of grazing, where a diffuse
-surface sends 1e-4 of its light, a film between equal media has resonances as narrow as one likes."""
-_MOST_SPECTRAL_CELLS = (8, 64, 32)
-"""Cells over thickness scale, angle and wavelength at which R and T are compared."""
-_MOST_COLOUR_CELLS = (32, 128)
-"""Cells over thickness scale and angle at which colours are compared."""
+GRAZING = 0.02
+"""Cosine below which colour differences are stated apart: within 1.2 degrees of grazing, where a diffuse
+surface sends 4e-4 of its light, a film between equal media has resonances as narrow as one likes."""
+_ALL_SPECTRAL_CELLS, _SPREAD_SPECTRAL_CELLS = 250_000, (8, 64, 32)
+"""So many cells are all compared; of more, so many over thickness scale, angle and wavelength."""
+_ALL_COLOUR_NUMBERS, _SPREAD_COLOUR_CELLS = 8_000_000, (32, 128)
+"""Cells whose exact colours take so many spectral values are all compared; else so many over either axis."""
 _MOST_GRAZING_CELLS = 8
 _MOST_NUMBERS = 4_000_000
 """Spectral values held at a time while exact colours are integrated."""
@@ -59,13 +62,17 @@ class Certificate:
         Largest R + T of either polarisation; 1 without absorption.
     nonfinite : int
         Values that are not finite; a table with any is refused before it gets a certificate.
+    colour_cells : int
+        Cells between the texels that colours were compared at, short of grazing.
     delta_e_max, delta_e_p99 : float or None
-        CIEDE2000 of interpolated and exact colour, short of grazing incidence (cosine 0.01); None where the
+        CIEDE2000 of interpolated and exact colour, short of grazing incidence (cosine 0.02); None where the
         wavelengths span no colour.
     delta_e_grazing : float or None
         The largest difference in the cells from there to grazing; None where there are none.
     out_of_gamut : float or None
         Share of texels with a component below 0 or above 1.
+    quadrature_error : float or None
+        Largest change of a linear colour on halving the steps that it is integrated with.
     """
 
     held_out_points: int
@@ -74,25 +81,18 @@ class Certificate:
     rounding_error_max: float
     energy_max: float
     nonfinite: int
+    colour_cells: int
     delta_e_max: float | None
     delta_e_p99: float | None
     delta_e_grazing: float | None
     out_of_gamut: float | None
+    quadrature_error: float | None
 
     def to_json(self) -> str:
         """One JSON object of the figures by name, rounded to four digits: more would be noise."""
         figures = asdict(self)
         rounded = {k: float(f"{v:.4g}") if isinstance(v, float) else v for k, v in figures.items()}
         return json.dumps(rounded, allow_nan=False)
-
-
-@dataclass(frozen=True, eq=False)
-class Colouring:
-    """How a film's colour is integrated: the system, its quadrature, and the weights, shape (3, Q)."""
-
-    system: ColourSystem
-    quadrature_nm: FloatArray
-    weights: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,10 +126,8 @@ class Cells:
 
 
 def certify(solver: FilmSolver, grid: Grid, colouring: Colouring | None) -> Certificate:
-    """Measure a table's errors on cells spread over it."""
-    scales = Cells.along(grid.thickness_scale, _MOST_SPECTRAL_CELLS[0])
-    angles = Cells.along(grid.cos_theta, _MOST_SPECTRAL_CELLS[1])
-    waves = Cells.along(grid.wavelength_nm, _MOST_SPECTRAL_CELLS[2])
+    """Measure a table's errors on its cells."""
+    scales, angles, waves = _spectral_cells(grid)
     corners = Grid(scales.corners, angles.corners, waves.corners)
     middles = Grid(scales.middles, angles.middles, waves.middles)
     texels = _stacked(solver.intensities(corners))  # (4, 2 S, 2 A, 2 L)
@@ -147,10 +145,27 @@ def certify(solver: FilmSolver, grid: Grid, colouring: Colouring | None) -> Cert
     )
 
 
-def colour_cells(grid: Grid) -> tuple[Cells, Cells]:
+def _spectral_cells(grid: Grid) -> tuple[Cells, Cells, Cells]:
+    axes = (grid.thickness_scale, grid.cos_theta, grid.wavelength_nm)
+    few = math.prod(axis.size for axis in axes) <= _ALL_SPECTRAL_CELLS
+    most = tuple(axis.size for axis in axes) if few else _SPREAD_SPECTRAL_CELLS
+    scales, angles, waves = (Cells.along(axis, count) for axis, count in zip(axes, most, strict=True))
+    return scales, angles, waves
+
+
+def colour_cells(grid: Grid, colouring: Colouring) -> tuple[Cells, Cells]:
     """Choose the cells over thickness scale and angle at which a colour table is measured."""
-    scales = Cells.along(grid.thickness_scale, _MOST_COLOUR_CELLS[0])
-    return scales, short_of_grazing(Cells.along(grid.cos_theta, _MOST_COLOUR_CELLS[1]))
+    texels = grid.thickness_scale.size * grid.cos_theta.size
+    if texels * colouring.quadrature_nm.size <= _ALL_COLOUR_NUMBERS:
+        return all_colour_cells(grid)
+    scales = Cells.along(grid.thickness_scale, _SPREAD_COLOUR_CELLS[0])
+    return scales, short_of_grazing(Cells.along(grid.cos_theta, _SPREAD_COLOUR_CELLS[1]))
+
+
+def all_colour_cells(grid: Grid) -> tuple[Cells, Cells]:
+    """Return every cell over thickness scale and angle, short of grazing."""
+    scales = Cells.along(grid.thickness_scale, grid.thickness_scale.size)
+    return scales, short_of_grazing(Cells.along(grid.cos_theta, grid.cos_theta.size))
 
 
 def short_of_grazing(angles: Cells) -> Cells:
@@ -173,20 +188,27 @@ def _differences(
     return delta_e_2000(_lab(between, colouring.system), _lab(exact, colouring.system)), texels
 
 
-_NO_COLOUR: dict[str, float | None] = dict.fromkeys(
-    ("delta_e_max", "delta_e_p99", "delta_e_grazing", "out_of_gamut")
-)
+_NO_COLOUR: dict[str, Any] = {
+    "colour_cells": 0,
+    "delta_e_max": None,
+    "delta_e_p99": None,
+    "delta_e_grazing": None,
+    "out_of_gamut": None,
+    "quadrature_error": None,
+}
 
 
-def _colour_figures(solver: FilmSolver, grid: Grid, colouring: Colouring) -> dict[str, float | None]:
-    scales, angles = colour_cells(grid)
+def _colour_figures(solver: FilmSolver, grid: Grid, colouring: Colouring) -> dict[str, Any]:
+    scales, angles = colour_cells(grid, colouring)
     differences, texels = _differences(solver, scales, angles, colouring)
     outside = (texels < -_GAMUT_ROUNDING) | (texels > 1 + _GAMUT_ROUNDING)
     return {
+        "colour_cells": scales.lower.size * angles.lower.size,
         "delta_e_max": float(differences.max()),
         "delta_e_p99": float(np.quantile(differences, 0.99)),
         "delta_e_grazing": _grazing_difference(solver, grid, colouring),
         "out_of_gamut": float(outside.any(axis=-1).mean()),
+        "quadrature_error": colouring.error,
     }
 
 
@@ -196,7 +218,7 @@ def _grazing_difference(solver: FilmSolver, grid: Grid, colouring: Colouring) ->
     if grazing.lower.size in (0, angles.lower.size):
         return None
     few = grazing.where(np.arange(grazing.lower.size) < _MOST_GRAZING_CELLS)
-    scales = Cells.along(grid.thickness_scale, _MOST_COLOUR_CELLS[0])
+    scales, _ = colour_cells(grid, colouring)
     return float(colour_differences(solver, scales, few, colouring).max())
 
 

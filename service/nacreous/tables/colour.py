@@ -1,5 +1,7 @@
 """The colour of a film: which wavelengths it is integrated over, and lookup textures of it."""
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -7,9 +9,10 @@ from nacreous.errors import SpecError
 from nacreous.optics.colour import ColourSystem
 from nacreous.optics.stack import Stack, all_layers
 from nacreous.tables.film import Grid, film_problem, optical_thickness_nm
+from nacreous.tables.solver import FilmSolver, probe_of
 from nacreous.tables.thickness_spread import one_thickness
 
-__all__ = ["has_colour", "quadrature_nm"]
+__all__ = ["Colouring", "has_colour", "quadrature_nm", "settled_colouring"]
 
 FloatArray = NDArray[np.float64]
 
@@ -19,6 +22,29 @@ VISIBLE_NM = (400.0, 700.0)
 SAMPLES_A_FRINGE = 8
 _WIDEST_STEP_NM = 1.0
 _MOST_SAMPLES = 65_536
+
+SETTLED = 2e-4
+"""Change of a linear colour on halving the steps of its quadrature at which they are fine enough."""
+_PROBE_SCALES, _PROBE_ANGLES = 5, 17
+
+
+@dataclass(frozen=True, eq=False)
+class Colouring:
+    """How a film's colour is integrated.
+
+    Parameters
+    ----------
+    system : ColourSystem
+    quadrature_nm : float array, shape (Q,)
+    weights : float array, shape (3, Q)
+    error : float
+        Largest change of a linear component, at probes over the table, on halving the steps.
+    """
+
+    system: ColourSystem
+    quadrature_nm: FloatArray
+    weights: FloatArray
+    error: float
 
 
 def has_colour(wavelength_nm: FloatArray) -> bool:
@@ -53,6 +79,31 @@ def quadrature_nm(
             "give a layer this thick coherent = false",
         )
     return np.linspace(first, last, samples)
+
+
+def settled_colouring(solver: FilmSolver, grid: Grid, system: ColourSystem) -> Colouring:
+    """Halve the quadrature's steps until colours no longer change: sharp resonances need more than 8 samples.
+
+    Raises
+    ------
+    SpecError
+        The film is so thick that its fringes cannot be resolved.
+    """
+    nm = quadrature_nm(solver.stack, float(grid.thickness_scale[-1]), grid.wavelength_nm, system)
+    probe = probe_of(grid, (_PROBE_SCALES, _PROBE_ANGLES, 1))
+    colours = _colours(solver, probe, system, nm)
+    while True:
+        finer_nm = np.linspace(nm[0], nm[-1], 2 * nm.size - 1)
+        finer = _colours(solver, probe, system, finer_nm)
+        error = float(np.abs(finer - colours).max())
+        if error <= SETTLED or finer_nm.size > _MOST_SAMPLES:
+            return Colouring(system, nm, system.weights(nm), error)
+        nm, colours = finer_nm, finer
+
+
+def _colours(solver: FilmSolver, probe: Grid, system: ColourSystem, nm: FloatArray) -> FloatArray:
+    at = replace(probe, wavelength_nm=nm)
+    return np.stack([solver.colour(at, system.weights(nm), side) for side in solver.sides])
 
 
 def _optical_thickness_nm(stack: Stack, largest_scale: float) -> float:

@@ -104,8 +104,11 @@ def optical_thickness_nm(problem: FilmProblem) -> FloatArray:
 
 
 def phase_precision(problem: FilmProblem, asked: Precision) -> Precision:
-    """Return `asked`, or double precision where single cannot hold a phase or a resonance of the film."""
-    lost = _largest_phase(problem) > SINGLE_PRECISION_PHASE or _traps_light(problem)
+    """Return `asked`, or double precision where single cannot hold a phase or a resonance of the film.
+
+    Echoes in a thick layer are resonances, too: near total reflection they are a small number's reciprocal.
+    """
+    lost = problem.incoherent or _largest_phase(problem) > SINGLE_PRECISION_PHASE or _traps_light(problem)
     return Precision.DOUBLE if lost else asked
 
 

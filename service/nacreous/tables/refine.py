@@ -1,5 +1,6 @@
 """Grids that keep a promise: as few texels as hold ``[accuracy] delta_e``."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -10,11 +11,12 @@ from nacreous.errors import SpecError
 from nacreous.tables.axes import MAX_POINTS
 from nacreous.tables.certificate import (
     Cells,
-    Colouring,
+    all_colour_cells,
     colour_cells,
     colour_differences,
     short_of_grazing,
 )
+from nacreous.tables.colour import Colouring
 from nacreous.tables.film import Grid
 from nacreous.tables.solver import FilmSolver
 
@@ -24,6 +26,8 @@ FloatArray = NDArray[np.float64]
 
 _ALMOST = 0.95
 """Part of the allowed difference that the thickness axis may use up, so that some is left for the angles."""
+_WIDEN, _HELPED = (1.02, 1.3), 0.9
+"""Least and largest growth of a count while a cell does not hold, and what part of it counts as less."""
 _PROBE_ANGLES, _PROBED_CELLS = 17, 256
 """Angles, and cells along the thickness axis, at which its error is measured by itself."""
 _GROWTHS = (1.0, 1.15, 1.4, 1.8, 2.5, 4.0)
@@ -44,7 +48,7 @@ def refined(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float
 
     def fewest_angles(scales: int) -> int | None:
         def error(angles: int) -> float:
-            cells = colour_cells(_respaced(grid, angles, scales))
+            cells = colour_cells(_respaced(grid, angles, scales), colouring)
             return float(colour_differences(solver, *cells, colouring).max())
 
         return _fewest(error, grid.cos_theta.size, delta_e)
@@ -57,7 +61,29 @@ def refined(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float
         best = best if angles is None else (angles, scales)
     if best is None:
         raise _unreachable(delta_e)
-    return _respaced(grid, *best)
+    return _holding_everywhere(solver, grid, colouring, delta_e, *best)
+
+
+def _holding_everywhere(
+    solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float, angles: int, scales: int
+) -> Grid:
+    """Widen a table that holds at the cells tried until it holds at all of them, the angles first."""
+
+    def worst(angles: int, scales: int) -> float:
+        cells = all_colour_cells(_respaced(grid, angles, scales))
+        return float(colour_differences(solver, *cells, colouring).max())
+
+    error = worst(angles, scales)
+    while error > delta_e:
+        growth = float(np.clip((error / delta_e) ** 0.5, *_WIDEN))
+        angles, before = math.ceil(growth * angles), error
+        error = worst(angles, scales)
+        if error > delta_e and error > _HELPED * before and scales > 1:
+            scales = math.ceil(growth * scales)
+            error = worst(angles, scales)
+        if max(angles, scales) > MAX_POINTS:
+            raise _unreachable(delta_e)
+    return _respaced(grid, angles, scales)
 
 
 def _scale_counts(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float) -> tuple[int, ...]:

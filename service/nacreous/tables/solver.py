@@ -14,7 +14,7 @@ from nacreous.optics.stack import Stack, sample_stack
 from nacreous.tables.film import Grid, checked_intensities, film_problem, phase_precision
 from nacreous.tables.thickness_spread import ThicknessSpread, converged_spread, one_thickness
 
-__all__ = ["FilmSolver", "film_solver"]
+__all__ = ["FilmSolver", "film_solver", "probe_of"]
 
 FloatArray = NDArray[np.float64]
 
@@ -87,12 +87,7 @@ def _spread(device: Device, stack: Stack, grid: Grid) -> ThicknessSpread:
     sampled = sample_stack(stack, grid.wavelength_nm[:1])
     if not sampled.thickness_sigma_nm.any():
         return one_thickness(sampled.thickness_nm.size)
-    scales, angles, wavelengths = _SPREAD_PROBES
-    probe = Grid(
-        _probe(grid.thickness_scale, scales),
-        _probe(grid.cos_theta, angles),
-        _probe(grid.wavelength_nm, wavelengths),
-    )
+    probe = probe_of(grid, _SPREAD_PROBES)
 
     def mean_intensities(spread: ThicknessSpread) -> FloatArray:
         problem = film_problem(stack, spread, probe)
@@ -100,6 +95,12 @@ def _spread(device: Device, stack: Stack, grid: Grid) -> ThicknessSpread:
         return np.stack([np.asarray(values, np.float64) for values in computed.values()])
 
     return converged_spread(stack, grid.wavelength_nm, mean_intensities)
+
+
+def probe_of(grid: Grid, counts: tuple[int, int, int]) -> Grid:
+    """Return at most so many scales, angles and wavelengths of a grid, evenly spread, the ends among them."""
+    axes = (grid.thickness_scale, grid.cos_theta, grid.wavelength_nm)
+    return Grid(*(_probe(axis, count) for axis, count in zip(axes, counts, strict=True)))
 
 
 def _probe(axis: FloatArray, count: int) -> FloatArray:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nacreous.errors import SpecError
+from nacreous.errors import NumericalError, SpecError
 from nacreous.opencl.device import Device, open_device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.precision import Precision
@@ -18,8 +18,8 @@ from nacreous.opencl.tiles import Observer
 from nacreous.optics.colour import colour_system
 from nacreous.optics.stack import all_layers
 from nacreous.tables.axes import cos_theta_values, thickness_scale_values, wavelength_values_nm
-from nacreous.tables.certificate import Certificate, Colouring, certify
-from nacreous.tables.colour import VISIBLE_NM, has_colour, quadrature_nm
+from nacreous.tables.certificate import Certificate, certify
+from nacreous.tables.colour import VISIBLE_NM, Colouring, has_colour, settled_colouring
 from nacreous.tables.film import Grid
 from nacreous.tables.identity import table_id
 from nacreous.tables.refine import refined
@@ -84,7 +84,7 @@ def tabulate_table(
     wanted = _wanted(parts, grid)
     _check_ellipsometry(spec)
     solver = film_solver(device, spec.stack, grid, _PRECISIONS[spec.accuracy.precision])
-    colouring = _colouring(spec, grid) if has_colour(grid.wavelength_nm) else None
+    colouring = _colouring(spec, solver, grid) if has_colour(grid.wavelength_nm) else None
     if spec.accuracy.delta_e is not None:
         grid = refined(solver, grid, _required(colouring), spec.accuracy.delta_e)
     solver, certificate = _certified(solver, grid, colouring)
@@ -93,12 +93,16 @@ def tabulate_table(
 
 
 def _certified(solver: FilmSolver, grid: Grid, colouring: Colouring | None) -> tuple[FilmSolver, Certificate]:
-    """Certify a table before it is computed, in double precision where single turns out to round too much."""
-    certificate = certify(solver, grid, colouring)
-    if solver.precision is Precision.SINGLE and certificate.rounding_error_max > SINGLE_TOLERANCE:
-        solver = replace(solver, precision=Precision.DOUBLE)
-        certificate = certify(solver, grid, colouring)
-    return solver, certificate
+    """Certify a table before it is computed, in double precision where single turns out to lose too much."""
+    if solver.precision is Precision.SINGLE:
+        try:
+            certificate = certify(solver, grid, colouring)
+        except NumericalError:
+            certificate = None
+        if certificate is not None and certificate.rounding_error_max <= SINGLE_TOLERANCE:
+            return solver, certificate
+    exact = replace(solver, precision=Precision.DOUBLE)
+    return exact, certify(exact, grid, colouring)
 
 
 def _wanted(parts: Collection[Part] | None, grid: Grid) -> frozenset[Part]:
@@ -137,10 +141,9 @@ def _check_ellipsometry(spec: Spec) -> None:
         )
 
 
-def _colouring(spec: Spec, grid: Grid) -> Colouring:
+def _colouring(spec: Spec, solver: FilmSolver, grid: Grid) -> Colouring:
     system = colour_system(spec.colour.illuminant, spec.colour.observer, spec.colour.space)
-    quadrature = quadrature_nm(spec.stack, float(grid.thickness_scale[-1]), grid.wavelength_nm, system)
-    return Colouring(system, quadrature, system.weights(quadrature))
+    return settled_colouring(solver, grid, system)
 
 
 def _variables(

@@ -6,6 +6,7 @@ its error falls as exp(-(2 pi / step - w)^2 / 2) for a fringe of frequency w, so
 number of fringes within the spread (Gauss-Hermite nodes grow with its square).
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
@@ -95,7 +96,7 @@ def _converged_count(
 def _spread(sigma_nm: FloatArray, counts: NDArray[np.int_]) -> ThicknessSpread:
     """Every combination of the layers' nodes."""
     rules = [_nodes(int(count)) for count in counts]
-    variants = int(np.prod([len(nodes) for nodes, _ in rules]))
+    variants = math.prod(len(nodes) for nodes, _ in rules)  # exact: 9^20 is beyond 64 bits
     if variants > _MOST_VARIANTS:
         raise SpecError(
             "stack.layers",
