@@ -10,6 +10,7 @@ __all__ = [
     "NacreousError",
     "NumericalError",
     "SpecError",
+    "reason",
 ]
 
 
@@ -47,9 +48,16 @@ class BudgetError(NacreousError):
     def __init__(self, what: str, needed_bytes: int, limit_bytes: int) -> None:
         self.needed_bytes, self.limit_bytes = needed_bytes, limit_bytes
         super().__init__(
-            f"{what} needs {needed_bytes / 2**20:,.1f} MiB and the limit is {limit_bytes / 2**20:,.1f} MiB; "
+            f"{what} needs {_size(needed_bytes)} and the limit is {_size(limit_bytes)}; "
             "use fewer samples on an axis, or raise NACREOUS_BYTE_BUDGET"
         )
+
+
+def _size(count: int) -> str:
+    """Return a number of bytes in the largest unit, up to MiB, that it fills."""
+    if count < 2**10:
+        return f"{count} bytes"
+    return f"{count / 2**10:,.1f} KiB" if count < 2**20 else f"{count / 2**20:,.1f} MiB"
 
 
 class DeviceError(NacreousError):
@@ -62,3 +70,8 @@ class NumericalError(NacreousError):
 
 class FileFormatError(NacreousError):
     """A file cannot be read, or a table cannot be written in the format asked for."""
+
+
+def reason(error: Exception) -> str:
+    """Return why something failed, without the number that the operating system gives it."""
+    return getattr(error, "strerror", None) or str(error)

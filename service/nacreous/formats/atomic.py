@@ -1,29 +1,40 @@
 """Files that are there completely, or not at all.
 
 A file is written under a hidden name in the folder it is for, brought to the disk, and renamed: `rename`
-swaps names in one step (POSIX.1-2017, rename). What fails or is interrupted leaves the old file as it was; a
-killed process leaves at most a hidden ``.nacreous-….part``.
+swaps names in one step (POSIX.1-2017, rename). Where several files belong together, each old one keeps a
+second name until all new ones are in place, so that a failure can bring every one of them back. What fails or
+is interrupted leaves the old files as they were; a killed process leaves at most a hidden
+``.nacreous-….part``, which a later write to the folder removes.
 """
 
 import os
+import re
 import secrets
-from collections.abc import Iterator
-from contextlib import contextmanager
+import shutil
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from nacreous.errors import FileFormatError
+from nacreous.errors import FileFormatError, reason
 
 __all__ = ["replacing"]
 
+_HIDDEN = re.compile(r"\.nacreous-[0-9a-f]{16}\.part")
+_ABANDONED_S = 3600.0
+"""Age beyond which a hidden file belongs to nobody: a writer changes its own all the time."""
+
 
 @contextmanager
-def replacing(*paths: Path) -> Iterator[tuple[Path, ...]]:
+def replacing(*paths: Path, obsolete: Sequence[Path] = ()) -> Iterator[tuple[Path, ...]]:
     """Yield one path to write for each of `paths`, and put all files in place once all are written.
+
+    Files at `obsolete` belong to what is replaced, and are removed with it.
 
     Raises
     ------
     FileFormatError
-        A file cannot be written; none of `paths` has changed.
+        A file cannot be written; none of `paths` and `obsolete` has changed.
 
     Examples
     --------
@@ -35,22 +46,77 @@ def replacing(*paths: Path) -> Iterator[tuple[Path, ...]]:
     ...     film.read_text()
     'new'
     """
-    # Not made from the final name, which may be as long as a name can be.
-    temporaries = tuple(path.with_name(f".nacreous-{secrets.token_hex(8)}.part") for path in paths)
+    temporaries = tuple(_hidden_beside(path) for path in paths)
     try:
+        _check_targets(paths)
+        for folder in {path.parent for path in paths}:
+            _sweep(folder)
         yield temporaries
         for temporary in temporaries:
             _bring_to_disk(temporary)
-        for temporary, path in zip(temporaries, paths, strict=True):
-            temporary.replace(path)
+        _swap(temporaries, paths, obsolete)
         for folder in {path.parent for path in paths}:
             _bring_to_disk(folder)
     except OSError as error:
         names = " and ".join(map(str, paths))
-        raise FileFormatError(f"{names} cannot be written: {error.strerror or error}") from error
+        raise FileFormatError(f"{names} cannot be written: {reason(error)}") from error
     finally:
         for temporary in temporaries:
             temporary.unlink(missing_ok=True)
+
+
+def _hidden_beside(path: Path) -> Path:
+    """Return a new hidden name, not made from the final one, which may be as long as a name can be."""
+    return path.with_name(f".nacreous-{secrets.token_hex(8)}.part")
+
+
+def _check_targets(paths: Sequence[Path]) -> None:
+    for path in paths:
+        if path.is_dir():
+            raise FileFormatError(f"{path} cannot be written: it is a folder")
+
+
+def _swap(temporaries: Sequence[Path], paths: Sequence[Path], obsolete: Sequence[Path]) -> None:
+    """Rename all files, or none."""
+    with ExitStack() as undo:
+        kept = [_keep(path, undo) for path in (*paths, *obsolete)]
+        for temporary, path in zip(temporaries, paths, strict=True):
+            temporary.replace(path)
+        for path in obsolete:
+            path.unlink()
+        undo.pop_all()
+    for backup in kept:
+        backup.unlink(missing_ok=True)
+
+
+def _keep(path: Path, undo: ExitStack) -> Path:
+    """Give an old file a second name, from which `undo` brings it back; where there is none, it removes."""
+    backup = _hidden_beside(path)
+    if not os.path.lexists(path):
+        undo.callback(path.unlink, missing_ok=True)
+        return backup
+    undo.callback(_restore, backup, path)
+    try:
+        os.link(path, backup, follow_symlinks=False)
+    except OSError:  # a file system without hard links
+        shutil.copy2(path, backup, follow_symlinks=False)
+    return backup
+
+
+def _restore(backup: Path, path: Path) -> None:
+    with suppress(FileNotFoundError):  # what failed was keeping this very file
+        backup.replace(path)
+    backup.unlink(missing_ok=True)  # two names of one file: rename leaves both
+
+
+def _sweep(folder: Path) -> None:
+    """Remove what killed processes have left."""
+    oldest = time.time() - _ABANDONED_S
+    for path in folder.iterdir():
+        if _HIDDEN.fullmatch(path.name):
+            with suppress(OSError):  # another process was quicker
+                if path.lstat().st_mtime < oldest:
+                    path.unlink()
 
 
 def _bring_to_disk(path: Path) -> None:

@@ -6,10 +6,15 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-__all__ = ["PREFIX", "Contents", "labelled", "provenance_of"]
+from nacreous.tables.digest import digest
+
+__all__ = ["CHECKSUM", "PREFIX", "Contents", "checksum", "labelled", "provenance_of"]
 
 PREFIX = "nacreous:"
 """Begins the name of every attribute that Nacreous writes, in every format."""
+
+CHECKSUM = f"{PREFIX}checksum"
+"""The attribute that holds `checksum`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,13 +25,22 @@ class Contents:
     ----------
     arrays : mapping of str to array
         Every quantity of the file: ``R_s`` … ``T_p``, ``R`` and ``T`` for unpolarised spectra, ``R_rgb`` and
-        ``T_rgb`` for colours.
+        ``T_rgb`` for colours; and the axes, where the file holds them as arrays.
     provenance : mapping of str to str
         ``id``, ``version``, ``spec``, ``certificate`` and the rest, without their prefix.
+    checksum : str
+        What `checksum` gives for the file as it is; ``provenance["checksum"]`` is what it was.
     """
 
     arrays: Mapping[str, NDArray[Any]]
     provenance: Mapping[str, str]
+    checksum: str
+
+
+def checksum(attributes: Iterable[tuple[str, object]], values: Iterable[bytes]) -> str:
+    """Return the SHA-256, in hex, over the values as a file stores them and Nacreous's other attributes."""
+    ours = {key: str(value) for key, value in attributes if key.startswith(PREFIX) and key != CHECKSUM}
+    return digest(ours, values)
 
 
 def labelled(provenance: Mapping[str, str]) -> dict[str, str]:
