@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from bench.ours import FLOP_PER_LAYER_EVALUATION, ours
-from bench.page import render
+from bench.page import Pair, render
 from bench.roofline import measure_roofline
 from bench.scaling import scaling_figures
 from bench.stack import BenchStack, bench_stack
@@ -17,11 +17,11 @@ PAGE = Path(__file__).parents[2] / "docs/benchmarks.md"
 def main() -> None:
     """Measure, print as it goes, write the page."""
     stack = bench_stack()
-    own, others = ours(), witnesses()
-    measured = _measured(own, stack)
+    own = ours()
+    pairs = [Pair(_measured_if_installed(witness, stack), _measured(own, stack)) for witness in witnesses()]
     page = render(
-        measured,
-        [_measured_if_installed(witness, stack) for witness in others],
+        _measured(own, stack),
+        pairs,
         measure_roofline(),
         scaling_figures(),
         stack=stack,

@@ -40,7 +40,7 @@ def make_nacreous() -> Solver:
 
 
 def film_problem(stack: BenchStack, repeat: int = 1) -> FilmProblem:
-    """The benchmark's stack, its layers `repeat` times, as the kernels take it."""
+    """Return the benchmark's stack, its layers `repeat` times, as the kernels take it."""
     layers = stack.thickness_nm.size
     return FilmProblem(
         wavelength_nm=stack.wavelength_nm,

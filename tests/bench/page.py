@@ -3,6 +3,7 @@
 import os
 import platform
 from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -27,7 +28,8 @@ Written by `make bench`; every number comes from the same run on the same machin
 |---|--:|--:|--:|
 {rows}
 
-Medians of several runs, from arrays in host memory to arrays in host memory, both polarisations together.
+Medians of several runs, from arrays in host memory to arrays in host memory, both polarisations together. A
+ratio is to Nacreous measured right after the program, because a machine is not equally busy all the time.
 Every program is checked before it is timed; its error is the largest difference of R or T from the
 double-precision reference of the tests. Scalar tmm does a part of the samples.
 
@@ -54,9 +56,17 @@ polynomial as the multiplications and additions it takes.
 """
 
 
+@dataclass(frozen=True)
+class Pair:
+    """Another program, and our own measured right after it: the machine is as busy for both."""
+
+    other: Measurement | Missing
+    ours: Measurement
+
+
 def render(
     ours: Measurement,
-    others: Sequence[Measurement | Missing],
+    pairs: Sequence[Pair],
     roofline: Roofline,
     figures: Sequence[Figure],
     *,
@@ -66,7 +76,7 @@ def render(
     """Write the page: the table of programs, our share of the roofline, what scales how, the machine."""
     return TEMPLATE.format(
         work=_work(stack),
-        rows="\n".join([*(_row(other, ours) for other in others), _own_row(ours)]),
+        rows="\n".join([*map(_row, pairs), _own_row(ours)]),
         device=roofline.device,
         shares=_shares(ours, roofline, stack, flop_per_layer_evaluation),
         flop=flop_per_layer_evaluation,
@@ -83,10 +93,11 @@ def _work(stack: BenchStack) -> str:
     )
 
 
-def _row(other: Measurement | Missing, ours: Measurement) -> str:
+def _row(pair: Pair) -> str:
+    other = pair.other
     if isinstance(other, Missing):
         return f"| {other.name} | {other.reason} | | |"
-    ratio = ours.layer_evaluations_per_second / other.layer_evaluations_per_second
+    ratio = pair.ours.layer_evaluations_per_second / other.layer_evaluations_per_second
     return f"| {other.name} | {_millions(other)} | {_two_digits(ratio)} x | {other.largest_error:.1e} |"
 
 

@@ -126,7 +126,7 @@ def _run(*arguments: str) -> None:
 
 
 def _peak_bytes(*arguments: str) -> int:
-    """Largest resident set of a process: of the child of a small one, for a child begins with its parent's."""
+    """Run a process under a small one, for a child begins with its parent's memory; its largest set."""
     done = subprocess.run(
         [sys.executable, "-c", LAUNCHER, *arguments], check=True, capture_output=True, text=True
     )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bench import complex_recursion, real_recursion
-from bench.page import render
+from bench.page import Pair, render
 from bench.roofline import Roofline
 from bench.scaling import Figure
 from bench.stack import BenchStack, bench_stack
@@ -65,7 +65,10 @@ def test_the_page_states_rates_ratios_and_shares() -> None:
     """300 M/s is 15 times 20 M/s; at 100 flop each it is 30 GFLOP/s, a tenth of 300."""
     page = render(
         Measurement("ours", 300e6, 2e-6),
-        [Measurement("theirs", 20e6, 1e-6), Missing("absent", "jax is not installed")],
+        [
+            Pair(Measurement("theirs", 20e6, 1e-6), Measurement("ours", 300e6, 2e-6)),
+            Pair(Missing("absent", "jax is not installed"), Measurement("ours", 310e6, 2e-6)),
+        ],
         Roofline("a device", 300e9, 16e9),
         [Figure("a texture", "0.2 s", "0.25 s")],
         stack=bench_stack(),
