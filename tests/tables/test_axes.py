@@ -127,3 +127,11 @@ def test_an_axis_survives_json(axis: object) -> None:
     """Written out and read again it is the same axis."""
     read = COS_THETA.validate_python(axis)
     assert COS_THETA.validate_json(COS_THETA.dump_json(read)) == read
+
+
+def test_one_thickness_may_be_written_as_a_real_number() -> None:
+    """1.0 is 1, in the canonical form as well; any other number alone is no axis."""
+    assert repr(SCALE.validate_python(1.0)) == "1"
+    for wrong in (1.5, 0, 2, True, "1"):
+        with pytest.raises(ValidationError, match="expected 1, a list, "):
+            SCALE.validate_python(wrong)

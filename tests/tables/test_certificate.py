@@ -57,7 +57,7 @@ def _colour_differences(table: Table, points: int) -> np.ndarray:
     mu, scales = table.values("cos_theta"), table.values("thickness_scale")
     differences = []
     for _ in range(points):
-        point, scale = rng.uniform(0.012, 1), rng.uniform(scales[0], scales[-1])
+        point, scale = rng.uniform(0.025, 1), rng.uniform(scales[0], scales[-1])
         rows = [_interpolated_row(table, row, point) for row in range(scales.size)]
         between = np.array([np.interp(scale, scales, channel) for channel in np.transpose(rows)])
         exact = film(INDEX, np.array([420.0 * scale]), WAVELENGTH_NM, np.array([point]))

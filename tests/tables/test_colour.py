@@ -69,6 +69,24 @@ def test_bands_not_needles() -> None:
     np.testing.assert_allclose(table.values("R_rgb")[0, 1], linear_rgb(reflectance), rtol=0, atol=1e-3)
 
 
+def test_a_sharp_cavity_is_resolved() -> None:
+    """2 um between two mirrors of silver: resonances far narrower than an eighth of a fringe."""
+    media = np.array([1.0, 0.05 + 3.3j, 1.5, 0.05 + 3.3j, 1.5])
+    layers = [
+        {"material": {"n": media[j].real, "k": media[j].imag}, "thickness_nm": d}
+        for j, d in ((1, 60), (2, 2000), (3, 60))
+    ]
+    stack = {"incident": "vacuum", "substrate": {"n": 1.5}, "layers": layers}
+    axes = {"cos_theta": [0.9, 1.0], "wavelength_nm": {"start": 360, "stop": 780, "step": 20}}
+    table = tabulate_table(Spec.model_validate({"stack": stack, "table": axes}), [Part.COLOUR])
+    fine_nm = np.arange(360, 780, 0.02)
+    at = film(media, np.array([60.0, 2000.0, 60.0]), fine_nm, 1.0)
+    bands = ((at.T_s[0] + at.T_p[0]) / 2).reshape(-1, 50).mean(axis=1)  # 1 nm each
+    transmittance = np.interp(WAVELENGTH_NM, fine_nm.reshape(-1, 50).mean(axis=1), bands)
+    np.testing.assert_allclose(table.values("T_rgb")[0, 1], linear_rgb(transmittance), rtol=0, atol=4e-4)
+    assert table.certificate["quadrature_error"] <= 2e-4
+
+
 def test_a_film_too_thick_for_fringes_is_refused() -> None:
     """A coherent centimetre of glass: the message says what to do instead."""
     layer = {"material": {"n": 1.5}, "thickness_nm": 1e7}

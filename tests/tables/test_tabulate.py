@@ -100,6 +100,22 @@ def test_a_large_phase_is_computed_in_double_precision() -> None:
     np.testing.assert_allclose(table.values("R_s")[0], expected.R_s, rtol=0, atol=2e-7)
 
 
+def test_double_glazing_at_every_angle() -> None:
+    """Two panes with air between, grazing incidence among the angles: nothing comes in there, all is finite.
+
+    Head on, four surfaces of glass that add in intensities pass 1 / (1 + 4 r / (1 - r) ) of the light (Stokes
+    1862) where nothing is absorbed.
+    """
+    pane = {"material": {"n": 1.5}, "thickness_nm": 1e6, "coherent": False}
+    gap = {"material": "vacuum", "thickness_nm": 1e6, "coherent": False}
+    stack = {"incident": "vacuum", "substrate": "vacuum", "layers": [pane, gap, pane]}
+    table = tabulate_table(Spec.model_validate({"stack": stack}))
+    r = 0.04
+    np.testing.assert_allclose(table.values("T_s")[0, -1], 1 / (1 + 4 * r / (1 - r)), atol=1e-6)
+    assert (table.values("R_p")[0, 0] == 1).all()
+    assert (table.values("T_p")[0, 0] == 0).all()
+
+
 def test_double_precision_on_request() -> None:
     """Asked for, numbers are stored in double precision and are exact to 1e-12."""
     spec = Spec.model_validate(_spec([LAYER]).model_dump() | {"accuracy": {"precision": "double"}})

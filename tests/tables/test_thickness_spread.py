@@ -81,8 +81,9 @@ def test_the_spread_grows_with_the_thickness_scale() -> None:
     assert np.abs(direct.values("R_p")[0] - plain.R_p).max() > 1e-3
 
 
-def test_too_many_spreads_are_refused() -> None:
-    """Five wide spreads multiply to more combinations than can be averaged; the message says what to do."""
+@pytest.mark.parametrize("layers", [5, 20, 64])
+def test_too_many_spreads_are_refused(layers: int) -> None:
+    """Wide spreads multiply to more combinations than can be averaged, or than 64 bits count."""
     layer = {"material": {"n": 2.0}, "thickness_nm": 2000, "thickness_sigma_nm": 300}
     with pytest.raises(SpecError, match=r"stack\.layers: .*combinations.*fewer layers"):
-        tabulate_table(_spec([layer] * 5))
+        tabulate_table(_spec([layer] * layers))
