@@ -50,3 +50,16 @@ def test_an_observer_can_cancel() -> None:
 
     with pytest.raises(Cancelled):
         nacreous.tabulate(nacreous.preset("paper/figure-3"), observer=cancel)
+
+
+def test_a_mapping_stands_for_a_spec() -> None:
+    """What is in a TOML document can be passed as it is; anything else is told what is expected."""
+    film = {"material": {"n": 2.0}, "thickness_nm": 420}
+    stack = {"incident": "air", "substrate": {"n": 1.5}, "layers": [film]}
+    fields = {"stack": stack, "table": {"cos_theta": 4}}
+    table = nacreous.tabulate(fields)
+    xarray.testing.assert_identical(table, nacreous.tabulate(nacreous.Spec.model_validate(fields)))
+    with pytest.raises(nacreous.errors.SpecError, match=r"stack: expected a value, got nothing"):
+        nacreous.tabulate({})
+    with pytest.raises(nacreous.errors.SpecError, match=r"expected a nacreous\.Spec or a mapping .*got str"):
+        nacreous.tabulate("soap-bubble")  # type: ignore[arg-type]

@@ -10,7 +10,7 @@
 needs no OpenCL device.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -36,12 +36,15 @@ _HOMES = {
 """The module of each public name that is not defined here."""
 
 
-def tabulate(spec: "Spec", *, observer: Callable[[float], None] | None = None) -> "xarray.Dataset":
+def tabulate(
+    spec: "Spec | Mapping[str, Any]", *, observer: Callable[[float], None] | None = None
+) -> "xarray.Dataset":
     """Compute a table.
 
     Parameters
     ----------
-    spec : Spec
+    spec : Spec or mapping
+        A mapping holds the fields of a spec, as a TOML or JSON document does.
     observer : callable, optional
         Called with the fraction done, 0 to 1; what it raises ends the computation.
 
@@ -55,13 +58,20 @@ def tabulate(spec: "Spec", *, observer: Callable[[float], None] | None = None) -
     Raises
     ------
     SpecError
-        A material does not reach a wavelength, or absorbs in front of the stack.
+        The mapping is no spec. A material does not reach a wavelength, or absorbs in front of the stack.
     BudgetError, DeviceError, NumericalError
         The table is too large, there is no device, or a value breaks the law that it must obey.
     """
+    from nacreous.tables.spec import Spec
     from nacreous.tables.tabulate import tabulate_table
 
-    return tabulate_table(spec, observer=observer).to_xarray()
+    film = Spec.from_document(dict(spec)) if isinstance(spec, Mapping) else spec
+    if not isinstance(film, Spec):
+        from nacreous.errors import SpecError
+
+        remedy = "nacreous.preset(name) and nacreous.Spec.from_file(path) give one"
+        raise SpecError("", "a nacreous.Spec or a mapping of its fields", type(spec).__name__, remedy)
+    return tabulate_table(film, observer=observer).to_xarray()
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - any public name

@@ -1,5 +1,6 @@
 """The program as a whole: help, version, exit codes, and what it imports."""
 
+import errno
 import json
 import os
 import subprocess
@@ -8,6 +9,8 @@ from collections.abc import Callable
 from importlib.metadata import version
 
 import pytest
+
+from nacreous.cli.exit_codes import report
 
 Run = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -64,6 +67,19 @@ def test_a_lookup_texture_imports_nothing_slow(tmp_path: object) -> None:
     assert imported_by(*arguments).isdisjoint(SLOW)
 
 
+def test_an_unknown_illuminant_is_one_line_whatever_else_is_installed() -> None:
+    """colour-science warns of every optional package that it cannot import, here matplotlib."""
+    script = (
+        "import sys\n"
+        "sys.modules['matplotlib'] = None\n"
+        "sys.argv = ['nacreous', 'tabulate', 'coated-lens', '--set', 'colour.illuminant=D64']\n"
+        "from nacreous.cli.app import main\n"
+        "main()"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -73,6 +89,15 @@ def test_a_lookup_texture_imports_nothing_slow(tmp_path: object) -> None:
         (["tabulate", "soap-bubble", "--colour"], "No such option"),
         (["tabulate", "soap-bubbel"], "did you mean soap-bubble?"),
         (["tabulate", "absent.toml"], "No such file"),
+        (["tabulate", "./film"], "No such file"),
+        (["tabulate", "specs/film"], "No such file"),
+        (["tabulate", "paper/figure-33"], "did you mean paper/figure-3"),
+        (
+            ["tabulate", "soap-bubble", "--set", "table.thickness_scale=5"],
+            "expected 1, a list, { start, stop",
+        ),
+        (["tabulate", "coated-lens", "--set", "colour.illuminant=D64"], "did you mean D65"),
+        (["tabulate", "coated-lens", "--set", "colour.observer=me"], "a standard observer"),
         (["tabulate", "soap-bubble", "--set", "table.cos_theta"], "expected FIELD=VALUE"),
         (["tabulate", "soap-bubble", "--set", "table.cos_thet=4"], "did you mean cos_theta"),
         (["presets", "soap-bubbel"], "did you mean soap-bubble?"),
@@ -87,6 +112,13 @@ def test_a_wrong_option_is_one_message_and_exit_code_2(run: Run, arguments: list
     assert message in done.stderr
     assert done.stderr.count("\n") == 1
     assert done.stderr.startswith("nacreous: ")
+    assert "Value error" not in done.stderr
+
+
+def test_a_failure_of_the_system_is_said_without_its_number(capsys: pytest.CaptureFixture[str]) -> None:
+    """The name and the words of POSIX's strerror are for people, errno is not."""
+    report(PermissionError(errno.EACCES, os.strerror(errno.EACCES), "films"))
+    assert capsys.readouterr().err == "nacreous: films: Permission denied\n"
 
 
 def test_no_device_of_that_name_is_one_message_and_exit_code_1(run: Run) -> None:

@@ -1,5 +1,6 @@
 """``nacreous preview`` draws a picture of what the tables say."""
 
+import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -47,3 +48,20 @@ def test_a_picture_that_cannot_be_written_is_one_message(run: Run, tmp_path: Pat
     assert done.returncode in (1, 2)
     assert done.stderr.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["film.toml"]
+
+
+def test_a_name_in_any_script_is_drawn_in_silence(run: Run, tmp_path: Path) -> None:
+    """Letters that the font lacks, a home that is not there: no concern of who wants a picture."""
+    environment = {**os.environ, "HOME": "/nonexistent", "MPLCONFIGDIR": "/nonexistent/matplotlib"}
+    done = run("preview", "coated-lens", "--set", 'name="薄膜"', "-o", "film.png", env=environment)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "film.png").exists()
+
+
+@pytest.mark.parametrize("name", ["film.jpg", "film", "film.png.exr"])
+def test_a_picture_that_is_no_png_is_refused(run: Run, tmp_path: Path, name: str) -> None:
+    """A PNG under another name would be taken for what it is not."""
+    done = run("preview", "coated-lens", "-o", name)
+    assert done.returncode == 2
+    assert "--output: expected a file name that ends in .png" in done.stderr
+    assert list(tmp_path.iterdir()) == []

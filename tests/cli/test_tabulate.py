@@ -132,6 +132,25 @@ def test_an_interrupt_on_a_terminal_ends_it_with_130(program: tuple[str, ...], t
     assert list(tmp_path.iterdir()) == []
 
 
+def test_an_interrupt_in_a_pipe_ends_it_with_130_and_one_line(
+    program: tuple[str, ...], tmp_path: Path
+) -> None:
+    """Linux lists the libraries that a process has mapped: with OpenCL's, the work has begun."""
+    with subprocess.Popen(
+        [*program, *LARGE], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as child:
+        while not _has_opened_a_device(child.pid):
+            assert child.poll() is None
+        child.send_signal(signal.SIGINT)
+        out, err = child.communicate()
+    assert (child.returncode, out, err) == (130, b"", b"nacreous: interrupted\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+def _has_opened_a_device(pid: int) -> bool:
+    return "pocl" in Path(f"/proc/{pid}/maps").read_text()
+
+
 def _drain(terminal: int) -> None:
     """Read a terminal until its last writer has gone, which Linux reports as EIO."""
     try:

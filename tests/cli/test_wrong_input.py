@@ -28,14 +28,23 @@ def table(fields: str) -> str:
 
 
 DOCUMENTS = {
-    "not a number": (layer("NaN"), "NaN"),
-    "infinite": (layer("Infinity"), "Infinity"),
-    "beyond double precision": (layer("1e999"), "1e999"),
+    "not a number": (layer("NaN"), 'NaN, not a finite number, at the key "thickness_nm"'),
+    "infinite": (layer("-Infinity"), '-Infinity, not a finite number, at the key "thickness_nm"'),
+    "beyond double precision": (
+        layer("1e999"),
+        '1e999, not a finite number, at the key "thickness_nm"',
+    ),
     "a number as text": (layer('"420"'), "stack.layers.0.thickness_nm"),
     "not a number as text": (layer('"NaN"'), "stack.layers.0.thickness_nm"),
     "true as a number": (layer("true"), "stack.layers.0.thickness_nm"),
-    "half a surrogate pair": (film(rest=', "name": "\\ud800"'), "surrogate"),
-    "a key twice": (film(rest=', "name": "a", "name": "b"'), "twice"),
+    "half a surrogate pair": (film(rest=', "name": "\\ud800"'), 'surrogate pair at the key "name"'),
+    "a control character": (film(rest=', "name": "\\u001b[2J"'), "name"),
+    "a control character further down": (film(rest=', "source": "\\u0000"'), "source"),
+    "not a number in a list": (
+        film(rest=', "table": {"cos_theta": [0, NaN]}'),
+        'NaN, not a finite number, at the key "cos_theta"',
+    ),
+    "a key twice": (film(rest=', "name": "a", "name": "b"'), 'the key "name" twice'),
     "an unknown field": (film(rest=', "colr": {}'), "colr"),
     "an unknown field further down": (layer(rest=', "thicknes": 1'), "stack.layers.0.thicknes"),
     "nested too deeply": ("[" * 100_000, "nesting"),
@@ -67,6 +76,8 @@ PHYSICS = {
     "one cosine": (table('"cos_theta": 1'), "table.cos_theta"),
     "too many cosines": (table('"cos_theta": 1000000'), "table.cos_theta"),
     "a step of 0": (table('"wavelength_nm": {"start": 4e2, "stop": 7e2, "step": 0}'), "wavelength_nm.step"),
+    "a step of almost 0": (table('"cos_theta": {"start": 0, "stop": 1, "step": 1e-300}'), "got 1e+300"),
+    "five thicknesses": (table('"thickness_scale": 5'), "1, a list, { start, stop, step }"),
     "wavelengths without a colour": (table('"wavelength_nm": [900, 1000]'), "table.wavelength_nm"),
     "an unknown quantity": (table('"quantity": "brightness"'), "table.quantity"),
     "an unknown illuminant": (film(rest=', "colour": {"illuminant": "D64"}'), "colour.illuminant"),

@@ -1,18 +1,22 @@
 """No fault leaves half a file: real processes are killed, real writes fail."""
 
+import errno
 import os
 import signal
 import subprocess
 import sys
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
+from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS
 from nacreous.formats.verify import verify
-from nacreous.tables.table import Table
+from nacreous.tables.table import Table, Variable
 
 
 def test_replaces_a_file_only_when_the_new_one_is_complete(tmp_path: Path) -> None:
@@ -40,6 +44,113 @@ def test_what_fails_changes_nothing(tmp_path: Path, failure: type[BaseException]
 def _write_half(path: Path, failure: type[BaseException]) -> None:
     path.write_text("half")
     raise failure
+
+
+def write_new(*paths: Path, obsolete: Sequence[Path] = ()) -> None:
+    """Replace files by such that say "new"."""
+    with replacing(*paths, obsolete=obsolete) as temporaries:
+        for temporary in temporaries:
+            temporary.write_text("new")
+
+
+def refusing_second(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make the rename to any ``.transmission`` file fail, as on a disk that is taken away in between."""
+    rename = Path.replace
+
+    def replace(self: Path, target: Path) -> Path:
+        if "transmission" in Path(target).name and _is_new(self):
+            raise OSError(errno.EIO, os.strerror(errno.EIO))
+        return rename(self, target)
+
+    monkeypatch.setattr(Path, "replace", replace)
+
+
+def _is_new(path: Path) -> bool:
+    return path.read_text() == "new"
+
+
+@pytest.mark.parametrize("first", [None, "old"])
+@pytest.mark.parametrize("second", [None, "old"])
+def test_a_second_rename_that_fails_takes_the_first_one_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, first: str | None, second: str | None
+) -> None:
+    """Two files are one table: what was there is there again, and what was not is not."""
+    paths = tmp_path / "film.exr", tmp_path / "film.transmission.exr"
+    before = {path: text for path, text in zip(paths, (first, second), strict=True) if text}
+    for path, text in before.items():
+        path.write_text(text)
+    refusing_second(monkeypatch)
+    with pytest.raises(FileFormatError, match="Input/output error"):
+        write_new(*paths)
+    assert {path: path.read_text() for path in tmp_path.iterdir()} == before
+
+
+def test_works_without_hard_links(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """FAT has none, and Linux says EPERM (link(2))."""
+
+    def refuse(*_: object, **__: object) -> None:
+        raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))
+
+    monkeypatch.setattr(os, "link", refuse)
+    test_a_second_rename_that_fails_takes_the_first_one_back(tmp_path, monkeypatch, "old", "old")
+
+
+def test_a_folder_where_the_second_file_goes_is_found_first(tmp_path: Path) -> None:
+    """Nothing is written at all."""
+    film, folder = tmp_path / "film.exr", tmp_path / "film.transmission.exr"
+    folder.mkdir()
+    with pytest.raises(FileFormatError, match=r"film\.transmission\.exr cannot be written: it is a folder"):
+        write_new(film, folder)
+    assert list(tmp_path.iterdir()) == [folder]
+
+
+def test_what_is_obsolete_goes_with_what_it_belonged_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It goes when the new files come, and stays when they do not."""
+    film, old = tmp_path / "film.exr", tmp_path / "film.other.exr"
+    film.write_text("old")
+    old.write_text("old")
+    with replacing(film, obsolete=[old]) as (temporary,):
+        temporary.write_text("new")
+        assert old.exists()
+    assert list(tmp_path.iterdir()) == [film]
+    old.write_text("old")
+    refusing_second(monkeypatch)
+    transmission = tmp_path / "film.transmission.exr"
+    with pytest.raises(FileFormatError, match="Input/output error"):
+        write_new(film, transmission, obsolete=[old])
+    assert sorted(tmp_path.iterdir()) == [film, old]
+
+
+def test_the_transmission_of_an_earlier_film_is_removed(table: Table, opaque: Table, tmp_path: Path) -> None:
+    """A film on silver has none; one that some other program wrote is not touched."""
+    for name in ("exr", "spectral-exr", "png"):
+        path = tmp_path / f"film{FORMATS[FormatName(name)].suffix}"
+        _, transmission = FORMATS[FormatName(name)].write(table, path)
+        FORMATS[FormatName(name)].write(replace(opaque, variables=_without_T(opaque)), path)
+        assert not transmission.exists()
+        transmission.write_text("someone else's")
+        FORMATS[FormatName(name)].write(replace(opaque, variables=_without_T(opaque)), path)
+        assert transmission.read_text() == "someone else's"
+
+
+def _without_T(table: Table) -> dict[str, Variable]:
+    return {name: variable for name, variable in table.variables.items() if name != "T_rgb"}
+
+
+def test_sweeps_what_killed_processes_have_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After an hour, and only what has exactly a hidden file's name."""
+    left, other = tmp_path / ".nacreous-0123456789abcdef.part", tmp_path / ".nacreous-notes.part"
+    left.touch()
+    other.touch()
+    film = tmp_path / "film.txt"
+    for age_s, kept in ((3000, [left, other]), (4000, [other])):
+        now = left.stat().st_ctime + age_s
+        monkeypatch.setattr("nacreous.formats.atomic.time.time", lambda now=now: now)
+        with replacing(film) as (temporary,):
+            temporary.write_text("new")
+        assert sorted(tmp_path.iterdir()) == [*kept, film]
 
 
 def test_a_folder_that_is_not_there_is_one_message(tmp_path: Path) -> None:

@@ -1,10 +1,12 @@
 """The registry is complete, and picks the format that a file's name asks for."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import xarray
 
-from nacreous.errors import SpecError
+from nacreous.errors import FileFormatError, SpecError
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS, find_format, format_of, parts_of, write
 from nacreous.formats.verify import verify
@@ -71,3 +73,41 @@ def test_asks_for_colours_only_where_there_are_any(one_thickness: Table, infrare
     assert parts_of([npz], one_thickness.spec) == {Part.SPECTRUM, Part.COLOUR}
     assert parts_of([npz], infrared.spec) == {Part.SPECTRUM}
     assert parts_of([npz, exr], infrared.spec) == {Part.SPECTRUM, Part.COLOUR}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda dataset: dataset.assign(R_s=dataset.R_s * 0.5),
+        lambda dataset: dataset.sel(cos_theta=1),
+        lambda dataset: dataset.isel(cos_theta=[0, 1]),
+        lambda dataset: dataset.transpose(),
+        lambda dataset: dataset.assign_coords(cos_theta=dataset.cos_theta * 0.5),
+        lambda dataset: dataset.assign_attrs({"nacreous:certificate": "{}"}),
+        lambda dataset: (dataset.drop_vars("channel") * 2).assign_attrs(dataset.attrs),
+    ],
+)
+@pytest.mark.parametrize("suffix", [".exr", ".npz", ".nc", ".csv"])
+def test_a_dataset_that_was_changed_is_not_written(
+    table: Table, tmp_path: Path, suffix: str, change: Callable[[xarray.Dataset], xarray.Dataset]
+) -> None:
+    """Its id and its certificate would be those of other values."""
+    with pytest.raises(FileFormatError, match=r"changed since.*to_netcdf"):
+        write(change(table.to_xarray()), tmp_path / f"film{suffix}")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_dataset_that_was_kept_is_written(table: Table, tmp_path: Path) -> None:
+    """A table that comes back from a NetCDF file gives the same texture."""
+    (path,) = write(table, tmp_path / "film.nc")
+    back = xarray.load_dataset(path, engine="h5netcdf")
+    first = write(back, tmp_path / "back.exr")
+    second = write(table.to_xarray(), tmp_path / "film.exr")
+    assert [file.read_bytes() for file in first] == [file.read_bytes() for file in second]
+
+
+@pytest.mark.parametrize("other", [xarray.Dataset(), {"R_s": 1}, None])
+def test_what_is_no_table_is_refused(tmp_path: Path, other: object) -> None:
+    """The message says what is expected."""
+    with pytest.raises(FileFormatError, match=r"expected a dataset as nacreous\.tabulate returns it"):
+        write(other, tmp_path / "film.exr")

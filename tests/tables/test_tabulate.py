@@ -112,6 +112,7 @@ def test_double_glazing_at_every_angle() -> None:
     table = tabulate_table(Spec.model_validate({"stack": stack}))
     r = 0.04
     np.testing.assert_allclose(table.values("T_s")[0, -1], 1 / (1 + 4 * r / (1 - r)), atol=1e-6)
+    assert (table.values("R_s")[0, 0] == 1).all()
     assert (table.values("R_p")[0, 0] == 1).all()
     assert (table.values("T_p")[0, 0] == 0).all()
 

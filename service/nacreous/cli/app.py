@@ -8,7 +8,7 @@ from typer.exceptions import TyperException
 
 from nacreous.cli.devices import devices
 from nacreous.cli.doctor import doctor
-from nacreous.cli.exit_codes import exit_code, report
+from nacreous.cli.exit_codes import INTERRUPTED, exit_code, report
 from nacreous.cli.materials import materials
 from nacreous.cli.presets import presets
 from nacreous.cli.preview import preview
@@ -29,6 +29,9 @@ def main() -> None:
     except (TyperException, NacreousError, OSError, KeyboardInterrupt) as error:
         report(error)
         code = exit_code(error)
+    else:
+        if code == INTERRUPTED:  # typer has caught it, and says nothing
+            report(KeyboardInterrupt())
     sys.exit(code)
 
 

@@ -17,7 +17,8 @@ Assignments = Annotated[
     typer.Option("--set", metavar="FIELD=VALUE", help="Change a field of the spec: table.cos_theta=256."),
 ]
 Formats = Annotated[
-    list[FormatName] | None, typer.Option("--format", help="Format to write; may be given again.")
+    list[FormatName] | None,
+    typer.Option("--format", help="Format to write, exr without one; may be given again."),
 ]
 OutputFolder = Annotated[
     Path, typer.Option("--output", "-o", metavar="DIR", help="Folder to write to; made if absent.")

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from typer.exceptions import TyperException
 
-from nacreous.errors import BudgetError, NacreousError, SpecError
+from nacreous.errors import BudgetError, NacreousError, SpecError, reason
 
 __all__ = ["FAILED", "INTERRUPTED", "NO_PLATFORM", "WRONG_INPUT", "exit_code", "report"]
 
@@ -19,6 +19,9 @@ NO_PLATFORM = 78
 """Configuration error, EX_CONFIG of sysexits.h: `nacreous doctor` found no OpenCL."""
 INTERRUPTED = 130
 """128 + SIGINT, as a shell reports it."""
+
+_PYDANTIC = "Value error, "
+"""What pydantic puts before a message that typer then shows."""
 
 _CODES: Mapping[type[BaseException], int] = MappingProxyType(
     {
@@ -51,5 +54,7 @@ def _message(error: BaseException) -> str:
     if isinstance(error, KeyboardInterrupt):
         return "interrupted"
     if isinstance(error, TyperException):
-        return " ".join(error.format_message().split())
+        return " ".join(error.format_message().split()).replace(_PYDANTIC, "", 1)
+    if isinstance(error, OSError):
+        return f"{error.filename}: {reason(error)}" if error.filename else reason(error)
     return str(error)

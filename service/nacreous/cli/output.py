@@ -3,10 +3,10 @@
 import os
 from pathlib import Path
 
-from nacreous.errors import SpecError
+from nacreous.errors import SpecError, reason
 from nacreous.optics.value import shown
 
-__all__ = ["check_folder", "file_stem"]
+__all__ = ["check_folder", "check_suffix", "file_stem"]
 
 
 def check_folder(folder: Path) -> None:
@@ -15,11 +15,16 @@ def check_folder(folder: Path) -> None:
         existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
         usable = existing.is_dir() and os.access(existing, os.W_OK | os.X_OK)
     except (OSError, ValueError) as error:  # too long a name, or one with a NUL character
-        reason = getattr(error, "strerror", None) or str(error)
-        raise SpecError("--output", "a folder that can be written", reason) from None
+        raise SpecError("--output", "a folder that can be written", reason(error)) from None
     if not usable:
         what = "cannot be written" if existing.is_dir() else "is a file"
         raise SpecError("--output", "a folder that can be written", f"{shown(str(existing))}, which {what}")
+
+
+def check_suffix(picture: Path) -> None:
+    """Refuse a name under which nobody would look for a PNG; raises `SpecError`."""
+    if picture.suffix.lower() != ".png":
+        raise SpecError("--output", "a file name that ends in .png", shown(picture.name))
 
 
 def file_stem(spec_or_preset: str) -> str:

@@ -19,15 +19,22 @@ def preview(
 ) -> None:
     """Draw a film: swatch, spectra, chromaticity.
 
-    The swatch runs over angle and thickness, and so does the path of the chromaticity.
+    The swatch runs over angle and thickness, and so does the path of the chromaticity: angle 0 at the left,
+    thickness upwards. The files of `nacreous tabulate --format exr` have grazing incidence, cos_theta = 0, at
+    the left, and the first thickness in the top row.
     """
-    from nacreous.cli.output import check_folder, file_stem
+    import logging
+
+    # What it has to say of its cache and of fonts is no concern of who wants a picture.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+    from nacreous.cli.output import check_folder, check_suffix, file_stem
     from nacreous.cli.preview_figure import draw
     from nacreous.cli.preview_tables import preview_tables
     from nacreous.cli.progress import progress
     from nacreous.tables.presets import load
 
     picture = output or Path(f"{file_stem(spec)}.preview.png")
+    check_suffix(picture)
     check_folder(picture.parent)
     film = load(spec, assignments or ())
     with progress("tabulating") as observer:

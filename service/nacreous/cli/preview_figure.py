@@ -1,5 +1,6 @@
 """The picture of ``nacreous preview``: drawn with matplotlib's objects, so that no state is shared."""
 
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -62,14 +63,17 @@ def draw(tables: PreviewTables, path: Path) -> None:
     _draw_spectrum(figure.add_subplot(grid[0, 1]), tables)
     draw_chromaticity(figure.add_subplot(grid[1, 1]), tables)
     _draw_titles(figure, tables, exposure)
-    with replacing(path) as (temporary,):
+    with replacing(path) as (temporary,), warnings.catch_warnings():
+        # A letter that the font does not have is drawn as a box.
+        warnings.filterwarnings("ignore", r"Glyph \d+", UserWarning)
         canvas.print_figure(temporary, format="png", metadata={"Software": None})
 
 
 def _draw_titles(figure: Figure, tables: PreviewTables, exposure: int) -> None:
     spec = tables.spec
     colour = spec.colour
-    _line(figure, 0.94, _shortened(spec.name or "Film", 60), size=19, weight="bold", color=INK)
+    name = " ".join(spec.name.split()) or "Film"
+    _line(figure, 0.94, _shortened(name, 60), size=19, weight="bold", color=INK)
     _line(figure, 0.898, _shortened(_structure(spec.stack), 130), size=11, color=FAINT)
     notes = (
         f"{colour.illuminant}, {colour.observer}; shown in sRGB",

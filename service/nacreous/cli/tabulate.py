@@ -27,7 +27,8 @@ def tabulate(
 ) -> None:
     """Compute the table of a spec and write it.
 
-    Prints the path of each file. Files are named after the spec's file or the preset.
+    Prints the path of each file. Files are named after the spec's file or the preset. Without --format, the
+    file is an EXR, the lookup texture for renderers.
     """
     from nacreous.cli.output import check_folder, file_stem
     from nacreous.formats.registry import FORMATS

@@ -95,28 +95,23 @@ def _keep(path: Path, undo: ExitStack) -> Path:
     if not os.path.lexists(path):
         undo.callback(path.unlink, missing_ok=True)
         return backup
-    undo.callback(_restore, backup, path)
+    undo.callback(backup.unlink, missing_ok=True)  # two names of one file: rename leaves both
     try:
         os.link(path, backup, follow_symlinks=False)
     except OSError:  # a file system without hard links
         shutil.copy2(path, backup, follow_symlinks=False)
+    undo.callback(backup.replace, path)
     return backup
 
 
-def _restore(backup: Path, path: Path) -> None:
-    with suppress(FileNotFoundError):  # what failed was keeping this very file
-        backup.replace(path)
-    backup.unlink(missing_ok=True)  # two names of one file: rename leaves both
-
-
 def _sweep(folder: Path) -> None:
-    """Remove what killed processes have left."""
+    """Remove what killed processes have left; what cannot be removed stays."""
     oldest = time.time() - _ABANDONED_S
-    for path in folder.iterdir():
-        if _HIDDEN.fullmatch(path.name):
-            with suppress(OSError):  # another process was quicker
-                if path.lstat().st_mtime < oldest:
-                    path.unlink()
+    with suppress(OSError):
+        for path in folder.iterdir():
+            # The time of the inode: a second name has the old file's time of writing.
+            if _HIDDEN.fullmatch(path.name) and path.lstat().st_ctime < oldest:
+                path.unlink(missing_ok=True)
 
 
 def _bring_to_disk(path: Path) -> None:

@@ -16,6 +16,7 @@ below 0 and above 1 are colours outside of the space's gamut: they belong to the
 ``nacreous:id``           SHA-256 over everything that decides the values
 ``nacreous:spec``         the spec, complete, as JSON
 ``nacreous:certificate``  the errors measured between the texels, as JSON
+``nacreous:checksum``     SHA-256 over the channels and all other attributes of Nacreous
 ``nacreous:version``      of Nacreous; ``precision``, ``device`` and ``kernels`` say how it was computed
 ========================  ==================================================================================
 """
@@ -26,7 +27,7 @@ import numpy as np
 
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
-from nacreous.formats.contents import Contents, provenance_of
+from nacreous.formats.contents import Contents
 from nacreous.formats.lookup import colour_quantities, lookup_attributes, lookup_files, lookup_rows, required
 from nacreous.formats.openexr import read_part, write_part
 from nacreous.tables.table import Table
@@ -38,9 +39,9 @@ SUFFIX = ".exr"
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write the colours of `table` and return the files; raises `FileFormatError`."""
-    files = lookup_files(path, SUFFIX, colour_quantities(table))
+    files, obsolete = lookup_files(path, SUFFIX, colour_quantities(table), read)
     names = table.values("channel").tolist()
-    with replacing(*files.values()) as temporaries:
+    with replacing(*files.values(), obsolete=obsolete) as temporaries:
         for quantity, temporary in zip(files, temporaries, strict=True):
             rows = lookup_rows(required(table, f"{quantity}_rgb"))  # (H, W, 3)
             channels = {name: rows[..., channel] for channel, name in enumerate(names)}
@@ -50,10 +51,9 @@ def write(table: Table, path: Path) -> tuple[Path, ...]:
 
 def read(path: Path) -> Contents:
     """Return the colours, (H, W, 3), and the attributes; raises `FileFormatError`."""
-    channels, attributes = read_part(path)
+    channels, provenance, found = read_part(path)
     names = next((names for names in ("RGB", "XYZ") if set(names) == channels.keys()), None)
     if names is None:
         raise FileFormatError(f"expected the channels R, G, B or X, Y, Z, got {', '.join(channels)}")
-    provenance = provenance_of(attributes.items())
     colours = np.stack([channels[name] for name in names], axis=-1)
-    return Contents({f"{provenance.get('quantity', 'R')}_rgb": colours}, provenance)
+    return Contents({f"{provenance.get('quantity', 'R')}_rgb": colours}, provenance, found)

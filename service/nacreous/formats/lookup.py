@@ -9,7 +9,7 @@ Reflection and transmission are two files: an alpha channel would be multiplied 
 """
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +17,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.errors import FileFormatError
-from nacreous.formats.contents import labelled
+from nacreous.formats.contents import Contents, labelled
+from nacreous.tables.spec import ColourSpec
 from nacreous.tables.table import Table
 
-__all__ = ["colour_quantities", "lookup_attributes", "lookup_files", "lookup_rows", "required"]
+__all__ = [
+    "axis_attribute",
+    "colour_facts",
+    "colour_quantities",
+    "lookup_attributes",
+    "lookup_files",
+    "lookup_rows",
+    "required",
+]
 
 
 def colour_quantities(table: Table) -> tuple[str, ...]:
@@ -35,11 +44,27 @@ def colour_quantities(table: Table) -> tuple[str, ...]:
     return ("R", "T") if "T_rgb" in table.variables else ("R",)
 
 
-def lookup_files(path: Path, suffix: str, quantities: Sequence[str]) -> dict[str, Path]:
-    """Return the file of each quantity: ``film.exr`` for R and ``film.transmission.exr`` for T."""
+def lookup_files(
+    path: Path, suffix: str, quantities: Sequence[str], read: Callable[[Path], Contents]
+) -> tuple[dict[str, Path], tuple[Path, ...]]:
+    """Return the file of each quantity, ``film.exr`` for R and ``film.transmission.exr`` for T, and old ones.
+
+    An old one is what an earlier table has left where this one has nothing to write: a stranger would take it
+    for the transmission of this film. Files that are not Nacreous's, as `read` finds, are none of them.
+    """
     stem, end = _split(path.name, suffix)
     files = {"R": path, "T": path.with_name(f"{stem}.transmission{end}")}
-    return {quantity: files[quantity] for quantity in quantities}
+    obsolete = [
+        file for quantity, file in files.items() if quantity not in quantities and _is_ours(file, read)
+    ]
+    return {quantity: files[quantity] for quantity in quantities}, tuple(obsolete)
+
+
+def _is_ours(path: Path, read: Callable[[Path], Contents]) -> bool:
+    try:
+        return path.is_file() and "id" in read(path).provenance
+    except (OSError, FileFormatError):
+        return False
 
 
 def _split(name: str, suffix: str) -> tuple[str, str]:
@@ -65,19 +90,27 @@ def lookup_rows(values: NDArray[Any]) -> NDArray[np.float32]:
 def lookup_attributes(table: Table, quantity: str) -> dict[str, str]:
     """Return what a picture's file says about itself: provenance, axes and colours."""
     scale = table.values("thickness_scale")
-    colour = table.spec.colour
     facts = {
         "quantity": quantity,
-        "axis.x": _axis("cos_theta", table.values("cos_theta")),
-        "axis.y": _axis("thickness_scale", np.repeat(scale, 2) if len(scale) == 1 else scale),
-        "colour.space": colour.space,
-        "colour.illuminant": colour.illuminant,
-        "colour.observer": colour.observer,
+        "axis.x": axis_attribute("cos_theta", table.values("cos_theta")),
+        "axis.y": axis_attribute("thickness_scale", scale),
+        **colour_facts(table.spec.colour),
     }
     return labelled({**table.provenance, **facts})
 
 
-def _axis(name: str, values: NDArray[np.float64]) -> str:
+def colour_facts(colour: ColourSpec) -> dict[str, str]:
+    """Return what a picture's file says of its colours."""
+    return {
+        "colour.space": colour.space,
+        "colour.illuminant": colour.illuminant,
+        "colour.observer": colour.observer,
+    }
+
+
+def axis_attribute(name: str, samples: NDArray[np.float64]) -> str:
+    """Return the JSON that describes the axis of a picture; one sample has two texels."""
+    values = np.repeat(samples, 2) if len(samples) == 1 else samples
     first, last = float(values[0]), float(values[-1])
     even = np.allclose(values, np.linspace(first, last, len(values)), rtol=0, atol=1e-9 * abs(last))
     axis: dict[str, Any] = {"name": name, "unit": "1", "range": [first, last], "count": len(values)}

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from nacreous.errors import FileFormatError
+from nacreous.errors import FileFormatError, reason
 from nacreous.formats.atomic import replacing
-from nacreous.formats.contents import PREFIX, Contents, labelled, provenance_of
+from nacreous.formats.contents import CHECKSUM, PREFIX, Contents, checksum, labelled, provenance_of
+from nacreous.tables.digest import array_bytes
 from nacreous.tables.table import Table
 
 __all__ = ["SUFFIX", "read", "write"]
@@ -27,6 +28,7 @@ def write(table: Table, path: Path) -> tuple[Path, ...]:
     arrays = {name: variable.values for name, variable in variables.items()}
     dims = json.dumps({name: variable.dims for name, variable in variables.items()})
     texts = labelled({**table.provenance, "dims": dims})
+    texts[CHECKSUM] = checksum(texts.items(), array_bytes(arrays))
     with replacing(path) as (temporary,), temporary.open("xb") as file:
         np.savez(file, allow_pickle=False, **arrays, **{name: np.array(text) for name, text in texts.items()})
     return (path,)
@@ -39,6 +41,9 @@ def read(path: Path) -> Contents:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             stored = {name: archive[name] for name in archive.files}
     except (OSError, ValueError, EOFError, KeyError, TypeError, AttributeError, zipfile.BadZipFile) as error:
-        raise FileFormatError(f"expected an npz archive, got one that cannot be read: {error}") from error
+        raise FileFormatError(
+            f"expected an npz archive, got one that cannot be read: {reason(error)}"
+        ) from error
     arrays = {name: array for name, array in stored.items() if not name.startswith(PREFIX)}
-    return Contents(arrays, provenance_of(stored.items()))
+    texts = [(name, array) for name, array in stored.items() if name.startswith(PREFIX)]
+    return Contents(arrays, provenance_of(texts), checksum(texts, array_bytes(arrays)))

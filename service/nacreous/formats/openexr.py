@@ -4,7 +4,8 @@
 * ZIP is exact and read by all; ZSTD and HTJ2K are unreadable for most, DWA and B44 change the values.
 * No ``chromaticities``: with them Mitsuba converts the pixels even of data that is marked raw.
 
-Nacreous writes attributes as text; OpenEXR keeps them byte for byte.
+Nacreous writes attributes as text; OpenEXR keeps them byte for byte. The attribute ``nacreous:checksum`` is
+over the channels, by their names, and the other attributes of Nacreous.
 """
 
 from collections.abc import Mapping
@@ -15,6 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.errors import FileFormatError
+from nacreous.formats.contents import CHECKSUM, checksum, provenance_of
+from nacreous.tables.digest import array_bytes
 
 __all__ = ["read_part", "write_part"]
 
@@ -38,8 +41,9 @@ def write_part(
     """
     import OpenEXR
 
-    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, **attributes}
     planes = {name: np.ascontiguousarray(plane, np.float32) for name, plane in channels.items()}
+    sealed = {**attributes, CHECKSUM: checksum(attributes.items(), array_bytes(planes))}
+    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, **sealed}
     try:
         with OpenEXR.File(header, dict(planes)) as file:  # a copy: the binding changes what it is given
             file.write(str(path))
@@ -51,15 +55,21 @@ def write_part(
 def _check_written(path: Path, planes: Mapping[str, NDArray[np.float32]]) -> None:
     """Read a file again: OpenEXR says nothing of a disk that was full when it closed the file."""
     try:
-        stored, _ = read_part(path)
+        stored, _, _ = read_part(path)
     except FileFormatError as error:
         raise OSError("the disk has not kept what was written") from error
     if not all(np.array_equal(stored[name], plane, equal_nan=True) for name, plane in planes.items()):
         raise OSError("the disk has not kept what was written")
 
 
-def read_part(path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
-    """Return channels, each (H, W), and attributes of a file's only part; raises `FileFormatError`."""
+def read_part(path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, str], str]:
+    """Return the channels, each (H, W), of a file's only part, its provenance and the checksum over both.
+
+    Raises
+    ------
+    FileFormatError
+        The file is no EXR of one part.
+    """
     import OpenEXR
 
     try:
@@ -67,6 +77,8 @@ def read_part(path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
             if len(file.parts) != 1:
                 raise FileFormatError(f"expected an EXR of one part, got {len(file.parts)}")
             channels = {name: np.array(channel.pixels) for name, channel in file.channels().items()}
-            return channels, dict(file.header())
+            attributes = dict(file.header())
     except (RuntimeError, ValueError, TypeError) as error:  # what the binding makes of a damaged file
         raise FileFormatError(f"expected an EXR, got one that cannot be read: {error}") from error
+    provenance = provenance_of(attributes.items())
+    return channels, provenance, checksum(attributes.items(), array_bytes(channels))

@@ -5,15 +5,18 @@ Axes and files are those of the `exr` format. Text chunks carry the provenance, 
 band, and a shader wants the linear values of the EXR.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
-from nacreous.formats.contents import PREFIX, Contents, provenance_of
+from nacreous.formats.contents import CHECKSUM, PREFIX, Contents, checksum, provenance_of
 from nacreous.formats.lookup import colour_quantities, lookup_attributes, lookup_files, lookup_rows, required
 from nacreous.formats.srgb import encoded, out_of_gamut, rec709
+from nacreous.tables.digest import array_bytes
 from nacreous.tables.table import Table
 
 __all__ = ["SUFFIX", "read", "write"]
@@ -26,8 +29,8 @@ _PERCEPTUAL = b"\x00"
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write the colours of `table` and return the files; raises `FileFormatError`."""
-    files = lookup_files(path, SUFFIX, colour_quantities(table))
-    with replacing(*files.values()) as temporaries:
+    files, obsolete = lookup_files(path, SUFFIX, colour_quantities(table), read)
+    with replacing(*files.values(), obsolete=obsolete) as temporaries:
         for quantity, temporary in zip(files, temporaries, strict=True):
             _write_picture(table, quantity, temporary)
     return tuple(files.values())
@@ -39,11 +42,16 @@ def _write_picture(table: Table, quantity: str, path: Path) -> None:
 
     colours = rec709(lookup_rows(required(table, f"{quantity}_rgb")), table.spec.colour)  # (H, W, 3)
     texts = lookup_attributes(table, quantity) | {f"{PREFIX}gamut.outside": f"{out_of_gamut(colours):.4f}"}
+    pixels = encoded(colours)
     chunks = PngInfo()
     chunks.add(b"sRGB", _PERCEPTUAL)
-    for name, text in texts.items():
+    for name, text in {**texts, CHECKSUM: _checksum(texts, pixels)}.items():
         chunks.add_text(name, text)
-    Image.fromarray(encoded(colours)).save(path, format="PNG", pnginfo=chunks)
+    Image.fromarray(pixels).save(path, format="PNG", pnginfo=chunks)
+
+
+def _checksum(texts: Mapping[str, str], pixels: NDArray[np.uint8]) -> str:
+    return checksum(texts.items(), array_bytes({"pixels": pixels}))
 
 
 def read(path: Path) -> Contents:
@@ -57,4 +65,4 @@ def read(path: Path) -> Contents:
     except (OSError, SyntaxError, ValueError) as error:  # SyntaxError: a broken chunk
         raise FileFormatError(f"expected a PNG, got one that cannot be read: {error}") from error
     provenance = provenance_of(texts.items())
-    return Contents({f"{provenance.get('quantity', 'R')}_srgb": pixels}, provenance)
+    return Contents({f"{provenance.get('quantity', 'R')}_srgb": pixels}, provenance, _checksum(texts, pixels))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
-from nacreous.formats.contents import Contents, provenance_of
+from nacreous.formats.contents import Contents
 from nacreous.formats.lookup import colour_quantities, lookup_attributes, lookup_files, lookup_rows, required
 from nacreous.formats.openexr import read_part, write_part
 from nacreous.tables.table import Table
@@ -34,8 +34,8 @@ _LAYER = "T."
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write the unpolarised spectra of `table` and return the files; raises `FileFormatError`."""
-    files = lookup_files(path, SUFFIX, _quantities(table))
-    with replacing(*files.values()) as temporaries:
+    files, obsolete = lookup_files(path, SUFFIX, _quantities(table), read)
+    with replacing(*files.values(), obsolete=obsolete) as temporaries:
         for quantity, temporary in zip(files, temporaries, strict=True):
             layout: dict[str, str | float] = {"spectralLayoutVersion": "1.0", "EV": 0.0}
             attributes = {**lookup_attributes(table, quantity), **layout}
@@ -71,16 +71,19 @@ def _preview(table: Table, quantity: str) -> dict[str, NDArray[np.float32]]:
 
 def read(path: Path) -> Contents:
     """Return the spectra, (H, W, L), any preview, (H, W, 3), and the attributes; raises `FileFormatError`."""
-    channels, attributes = read_part(path)
+    channels, provenance, found = read_part(path)
     layers = {_wavelength_nm(name): pixels for name, pixels in channels.items() if name.startswith(_LAYER)}
     if not layers:
         raise FileFormatError("expected channels such as T.550,000000nm, got none")
-    provenance = provenance_of(attributes.items())
     quantity = provenance.get("quantity", "R")
-    arrays: dict[str, NDArray[Any]] = {quantity: np.stack([layers[nm] for nm in sorted(layers)], axis=-1)}
+    ascending = sorted(layers)
+    arrays: dict[str, NDArray[Any]] = {
+        quantity: np.stack([layers[nm] for nm in ascending], axis=-1),
+        "wavelength_nm": np.array(ascending),
+    }
     if set("RGB") <= channels.keys():
         arrays[f"{quantity}_rgb"] = np.stack([channels[name] for name in "RGB"], axis=-1)
-    return Contents(arrays, provenance)
+    return Contents(arrays, provenance, found)
 
 
 def _wavelength_nm(channel: str) -> float:

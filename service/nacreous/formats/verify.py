@@ -2,21 +2,17 @@
 
 import hashlib
 import json
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from nacreous.errors import NacreousError, SpecError
+from nacreous.errors import NacreousError, reason
 from nacreous.formats.contents import Contents
 from nacreous.formats.registry import format_of
-from nacreous.opencl.sources import kernels_hash
+from nacreous.formats.verify_provenance import AXES, check_provenance, foreign_kernels
 from nacreous.optics.value import shown
-from nacreous.tables.identity import table_id
-from nacreous.tables.spec import Spec
-from nacreous.tables.spec_document import Syntax
 
 __all__ = ["Verification", "file_sha256", "verify"]
 
@@ -25,7 +21,6 @@ _FLUXES = ("R_s", "R_p", "T_s", "T_p", "R", "T")
 _LEAST, _LARGEST = -1e-6, 1 + 2e-5
 """What single precision makes of a flux of 0 and 1 at worst."""
 _PAIRS = (("R_s", "T_s"), ("R_p", "T_p"))
-_SHA256 = re.compile(r"[0-9a-f]{64}")
 
 
 @dataclass(frozen=True)
@@ -49,6 +44,8 @@ class Verification:
         Range of the finite ones, over everything but the axes; NaN where there is none.
     problems : tuple of str
         What is wrong; empty for a good file.
+    notes : tuple of str
+        What is worth knowing and not wrong.
     """
 
     path: Path
@@ -62,6 +59,7 @@ class Verification:
     least: float = np.nan
     largest: float = np.nan
     problems: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def good(self) -> bool:
@@ -84,7 +82,7 @@ def verify(path: str | Path) -> Verification:
     try:
         checksum = file_sha256(file)
     except OSError as error:
-        return Verification(file, problems=(f"expected a file, got: {error.strerror or error}",))
+        return Verification(file, problems=(f"expected a file, got: {reason(error)}",))
     try:
         chosen = format_of(file)
         contents = chosen.read(file)
@@ -95,7 +93,7 @@ def verify(path: str | Path) -> Verification:
 
 def _examined(path: Path, name: str, checksum: str, contents: Contents) -> Verification:
     quantities = _quantities(contents)
-    numbers = np.concatenate([np.ravel(array).astype(np.float64) for array in quantities.values()])
+    numbers = np.concatenate([np.empty(0), *map(np.ravel, quantities.values())]).astype(np.float64)
     finite = numbers[np.isfinite(numbers)]
     return Verification(
         path=path,
@@ -109,12 +107,18 @@ def _examined(path: Path, name: str, checksum: str, contents: Contents) -> Verif
         least=float(finite.min()) if finite.size else np.nan,
         largest=float(finite.max()) if finite.size else np.nan,
         problems=tuple(problem for check in _CHECKS for problem in check(contents)),
+        notes=("computed by other kernels, so its id cannot be checked",)
+        if foreign_kernels(contents)
+        else (),
     )
 
 
 def _quantities(contents: Contents) -> dict[str, np.ndarray]:
-    axes = ("thickness_scale", "cos_theta", "wavelength_nm", "channel")
-    return {name: array for name, array in contents.arrays.items() if name not in axes}
+    return {
+        name: array
+        for name, array in contents.arrays.items()
+        if name not in AXES and array.dtype.kind in "biuf" and array.size
+    }
 
 
 # ---- one check each ----------------------------------------------------------------------------------------
@@ -128,27 +132,29 @@ def _check_finite(contents: Contents) -> Iterator[str]:
 
 
 def _check_fluxes(contents: Contents) -> Iterator[str]:
-    for name in contents.arrays.keys() & set(_FLUXES):
-        least, largest = np.nanmin(contents.arrays[name]), np.nanmax(contents.arrays[name])
+    quantities = _quantities(contents)
+    for name in quantities.keys() & set(_FLUXES):
+        least, largest = np.fmin.reduce(quantities[name], None), np.fmax.reduce(quantities[name], None)
         if least < _LEAST or largest > _LARGEST:
             yield f"{name}: expected a share from 0 to 1, got {least:.6g} to {largest:.6g}"
 
 
 def _check_energy(contents: Contents) -> Iterator[str]:
     for R, T in _PAIRS:
-        if {R, T} <= contents.arrays.keys():
-            largest = np.nanmax(contents.arrays[R] + contents.arrays[T])
+        r, t = (_quantities(contents).get(name, np.zeros(1)) for name in (R, T))
+        if r.shape == t.shape:
+            largest = np.fmax.reduce(r + t, None)
             if largest > _LARGEST:
                 yield f"{R} + {T}: expected at most 1, got {largest:.6g}"
 
 
-def _check_axes(contents: Contents) -> Iterator[str]:
+def _check_texels(contents: Contents) -> Iterator[str]:
     """Compare a picture's size with the axes that its attributes describe."""
     for direction, name in enumerate(("axis.y", "axis.x")):
         if name not in contents.provenance:
             continue
         count = _count(contents.provenance[name])
-        for quantity, array in contents.arrays.items():
+        for quantity, array in _quantities(contents).items():
             texels = array.shape[direction]
             if texels != count:
                 yield f"nacreous:{name}: expected {texels} texels as {quantity} has, got {count}"
@@ -158,37 +164,25 @@ def _count(axis: str) -> object:
     """Return the number of texels that the JSON of an axis says; None where it says none."""
     try:
         return json.loads(axis)["count"]
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         return None
 
 
-def _check_provenance(contents: Contents) -> Iterator[str]:
-    missing = [key for key in ("id", "version", "spec", "certificate") if key not in contents.provenance]
-    if missing:
-        yield f"expected the attributes {', '.join(f'nacreous:{key}' for key in missing)}, got none"
-        return
-    try:
-        spec = Spec.from_text(contents.provenance["spec"], Syntax.JSON)
-        json.loads(contents.provenance["certificate"])
-    except (SpecError, ValueError) as error:
-        yield f"nacreous:spec and nacreous:certificate: {error}"
-        return
-    yield from _check_id(contents, spec)
-
-
-def _check_id(contents: Contents, spec: Spec) -> Iterator[str]:
-    """Compare the id with the spec's, where the kernels that made the file are these kernels."""
-    claimed = contents.provenance["id"]
-    if not _SHA256.fullmatch(claimed):
-        yield f"nacreous:id: expected 64 hexadecimal digits, got {shown(claimed)}"
-    elif contents.provenance.get("kernels") == kernels_hash() and claimed != table_id(spec):
-        yield f"nacreous:id: expected {table_id(spec)}, the id of the file's spec, got {claimed}"
+def _check_checksum(contents: Contents) -> Iterator[str]:
+    """Compare what the file holds with what was written; a file without a checksum is told elsewhere."""
+    claimed = contents.provenance.get("checksum", contents.checksum)
+    if claimed != contents.checksum:
+        yield (
+            "nacreous:checksum: expected that of the values and attributes as they are, "
+            f"{contents.checksum}, got {shown(claimed)}: the file has been changed"
+        )
 
 
 _CHECKS: tuple[Callable[[Contents], Iterator[str]], ...] = (
+    _check_checksum,
     _check_finite,
     _check_fluxes,
     _check_energy,
-    _check_axes,
-    _check_provenance,
+    _check_texels,
+    check_provenance,
 )

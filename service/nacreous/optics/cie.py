@@ -4,7 +4,9 @@ The common ones ship as two small tables, written from colour-science by `write_
 colour-science takes longer than computing a lookup texture. Every other name is looked up there.
 """
 
+import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,8 +37,7 @@ def colour_matching_functions(observer: str) -> tuple[FloatArray, FloatArray]:
         table = np.loadtxt(_OBSERVER_TABLE, delimiter=",", skiprows=1)
         first = 1 + 3 * OBSERVERS.index(observer)
         return table[:, 0], table[:, first : first + 3].T
-    import colour
-
+    colour = _colour_science()
     names = {name for name in colour.MSDS_CMFS if "Standard Observer" in name or "Cone" in name}
     if observer not in names:
         raise _unknown("colour.observer", "a standard observer", observer, names)
@@ -55,8 +56,7 @@ def illuminant_power(illuminant: str) -> tuple[FloatArray, FloatArray]:
     if illuminant in ILLUMINANTS:
         table = np.loadtxt(_ILLUMINANT_TABLE, delimiter=",", skiprows=1)
         return table[:, 0], table[:, 1 + ILLUMINANTS.index(illuminant)]
-    import colour
-
+    colour = _colour_science()
     if illuminant not in colour.SDS_ILLUMINANTS:
         raise _unknown("colour.illuminant", "an illuminant", illuminant, set(colour.SDS_ILLUMINANTS))
     power = colour.SDS_ILLUMINANTS[illuminant]
@@ -65,8 +65,7 @@ def illuminant_power(illuminant: str) -> tuple[FloatArray, FloatArray]:
 
 def write_tables() -> None:
     """Write the two shipped tables from colour-science's data."""
-    import colour
-
+    colour = _colour_science()
     observers = [colour.MSDS_CMFS[name] for name in OBSERVERS]
     columns = [observers[0].wavelengths, *(row for o in observers for row in np.asarray(o.values).T)]
     header = "nm," + ",".join(f"{axis} {name}" for name in OBSERVERS for axis in "xyz")
@@ -76,6 +75,14 @@ def write_tables() -> None:
     rows = [nm, *(np.interp(nm, power.wavelengths, power.values) for power in powers)]
     header = "nm," + ",".join(ILLUMINANTS)
     np.savetxt(_ILLUMINANT_TABLE, np.stack(rows, 1), "%.12g", ",", header=header, comments="")
+
+
+def _colour_science() -> Any:  # noqa: ANN401 - it has no types
+    """Return colour-science, which warns on import of optional packages that nothing here uses."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        import colour
+    return colour
 
 
 def _unknown(field: str, expected: str, got: str, known: set[str]) -> SpecError:

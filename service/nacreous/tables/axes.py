@@ -10,7 +10,7 @@ from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, model_validator
 
 from nacreous.optics.value import REFUSED, AsTuple, Number, StrictModel, form_tag, refusal
 
@@ -29,6 +29,9 @@ FloatArray = NDArray[np.float64]
 
 MAX_POINTS = 65_536
 """Points of one axis; more is a slip of the keyboard, and no renderer loads an image that wide."""
+
+_MANY = 1e12
+"""Points beyond which a message has no use for every digit."""
 
 _WHOLE = 1e-6
 """How near to a whole number of steps counts as whole: a step such as 0.1 is not exact in binary."""
@@ -54,9 +57,8 @@ class Range(StrictModel):
             raise refusal(f"more than start, {self.start:g}", f"{self.stop:g}", field="stop")
         points = _whole_steps(self) + 1
         if not 2 <= points <= MAX_POINTS:
-            raise refusal(
-                f"2 to {MAX_POINTS:,} points", f"{points:,.0f}", "choose another step", field="step"
-            )
+            got = f"{points:,.0f}" if points < _MANY else f"{points:.3g}"
+            raise refusal(f"2 to {MAX_POINTS:,} points", got, "choose another step", field="step")
         return self
 
 
@@ -115,6 +117,12 @@ def _spaced_form(value: object) -> str | None:
     return None if form == _COUNT else form
 
 
+def _scale_form(value: object) -> str | None:
+    """Return the form of an axis that is one thickness, 1 or 1.0, or has ends of its own."""
+    one = isinstance(value, int | float) and not isinstance(value, bool) and value == 1
+    return _COUNT if one else _spaced_form(value)
+
+
 def _one_of(form: Callable[[object], str | None], expected: str) -> Discriminator:
     return Discriminator(
         form,
@@ -144,10 +152,10 @@ CosThetaAxis = Annotated[
 """Cosines of the angle of incidence: a count over [0, 1], a list or a range."""
 
 ThicknessScaleAxis = Annotated[
-    Annotated[Literal[1], Tag(_COUNT)]
+    Annotated[Literal[1], BeforeValidator(int), Tag(_COUNT)]
     | Annotated[AxisList, _SCALE, Tag(_LIST)]
     | Annotated[Range, _SCALE, Tag(_RANGE)],
-    _one_of(_form, "1, a list, { start, stop, step } or { start, stop, count }"),
+    _one_of(_scale_form, "1, a list, { start, stop, step } or { start, stop, count }"),
 ]
 """Factors on every layer's thickness: 1 for the thickness as it is, a list or a range."""
 

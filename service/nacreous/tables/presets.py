@@ -38,15 +38,21 @@ def preset(name: str, overrides: Iterable[str] = ()) -> Spec:
 def load(spec_or_preset: str | Path, overrides: Iterable[str] = ()) -> Spec:
     """Return the spec in a file, or the preset of this name; raises `SpecError`.
 
-    A name that ends in ``.toml`` or ``.json`` is a file. Any other is a preset or, where there is none,
-    a file.
+    A name that ends in ``.toml`` or ``.json``, or begins with a folder, is a file. Any other is a preset or,
+    where there is none, a file.
     """
     name = str(spec_or_preset)
     if isinstance(spec_or_preset, Path) or name.lower().endswith(_SUFFIXES):
         return Spec.from_file(spec_or_preset, overrides)
-    if name not in preset_names() and _is_file(name):
+    if name not in preset_names() and (_is_file(name) or _is_path(name)):
         return Spec.from_file(name, overrides)
     return preset(name, overrides)
+
+
+def _is_path(name: str) -> bool:
+    """Tell whether a name leads through folders, which are none of those of the presets."""
+    first, slash, _ = name.partition("/")
+    return bool(slash) and not any(known.startswith(f"{first}/") for known in preset_names())
 
 
 def _is_file(name: str) -> bool:

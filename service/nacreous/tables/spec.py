@@ -4,20 +4,30 @@ The same spec gives the same bytes: nothing but its fields decides, and `canonic
 """
 
 import json
+import unicodedata
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, ValidationError
+from pydantic import AfterValidator, Field, ValidationError
 
 from nacreous.optics.stack import Stack
-from nacreous.optics.value import Number, StrictModel
+from nacreous.optics.value import Number, StrictModel, refusal
 from nacreous.tables.axes import CosThetaAxis, Range, ThicknessScaleAxis, WavelengthAxis
 from nacreous.tables.spec_document import Document, Syntax, override, parse, read, spec_error
 
 __all__ = ["AccuracySpec", "ColourSpec", "Spec", "TableSpec", "canonical_json", "json_schema"]
 
-Label = Annotated[str, Field(max_length=2000)]
+
+def _check_printable(text: str) -> str:
+    """Refuse control characters, which take over the terminal that shows them."""
+    found = next((mark for mark in text if unicodedata.category(mark) == "Cc" and mark not in "\t\n"), "")
+    if found:
+        raise refusal("text without control characters, other than tabs and line ends", ascii(found))
+    return text
+
+
+Label = Annotated[str, Field(max_length=2000), AfterValidator(_check_printable)]
 ColourScienceName = Annotated[str, Field(min_length=1, max_length=100)]
 
 LABELS = ("name", "description", "source")

@@ -5,17 +5,18 @@ before a parser sees them.
 """
 
 import json
+import math
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import StrEnum
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NoReturn
+from typing import Any
 
 from pydantic import ValidationError
 
-from nacreous.errors import SpecError
+from nacreous.errors import SpecError, reason
 from nacreous.optics.value import REFUSED, is_form_tag, shown
 
 __all__ = ["MAX_BYTES", "Syntax", "override", "parse", "read", "spec_error"]
@@ -40,8 +41,7 @@ def read(path: Path) -> Document:
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL character in the name
-        reason = getattr(error, "strerror", None) or str(error)
-        raise SpecError("", "a spec file that can be read", f"{shown(str(path))}: {reason}") from None
+        raise SpecError("", "a spec file that can be read", f"{shown(str(path))}: {reason(error)}") from None
     return parse(data, Syntax.JSON if path.suffix.lower() == ".json" else Syntax.TOML)
 
 
@@ -103,28 +103,58 @@ def _check_nesting(text: str) -> None:
             raise SpecError("", f"at most {MAX_DEPTH} levels of nesting", f"more in line {line}")
 
 
+_SURROGATE = re.compile("[\ud800-\udfff]")
+"""Half of a pair, which JSON can escape and no text can hold."""
+
+
+class _Fault(ValueError):  # noqa: N818 - json passes it on, and `parse` makes a SpecError of it
+    """What a table of the document must not hold, in words fit to be shown."""
+
+
+class _NotFinite(str):
+    """NaN, Infinity, or a number beyond double precision, as the document has it."""
+
+    __slots__ = ()
+
+
 def _parse_json(text: str) -> object:
-    return json.loads(text, object_pairs_hook=_unique, parse_constant=_refuse_constant, parse_float=_finite)
+    return json.loads(
+        text, object_pairs_hook=_checked_table, parse_constant=_NotFinite, parse_float=_finite_or_not
+    )
 
 
-def _unique(pairs: list[tuple[str, Any]]) -> Document:
-    table = dict(pairs)
-    if len(table) < len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for position, key in enumerate(keys) if key in keys[:position])
-        raise ValueError(f"the key {shown(twice)} twice")
+def _checked_table(pairs: list[tuple[str, Any]]) -> Document:
+    """Refuse what no table may hold, here where its key is known."""
+    table: Document = {}
+    for key, value in pairs:
+        if key in table:
+            raise _Fault(f"the key {shown(key)} twice")
+        table[key] = value
+        fault = next(filter(None, map(_fault, (key, *_parts(value)))), None)
+        if fault:
+            raise _Fault(f"{fault} at the key {shown(key)}")
     return table
 
 
-def _refuse_constant(name: str) -> NoReturn:
-    raise ValueError(f"{name}, which is not a finite number")
+def _fault(part: object) -> str:
+    """Return what is wrong with a key, or with a value that is no table; nothing for a good one."""
+    if isinstance(part, _NotFinite):
+        return f"{shown(str(part))[1:-1]}, not a finite number,"
+    return "half of a surrogate pair" if isinstance(part, str) and _SURROGATE.search(part) else ""
 
 
-def _finite(literal: str) -> float:
+def _parts(value: object) -> Iterator[object]:
+    """Yield a value, or what a list of lists holds; the tables in it have been looked at."""
+    if isinstance(value, list):
+        for entry in value:
+            yield from _parts(entry)
+    else:
+        yield value
+
+
+def _finite_or_not(literal: str) -> float | _NotFinite:
     value = float(literal)
-    if value in (float("inf"), float("-inf")):
-        raise ValueError(f"{shown(literal)[1:-1]}, which is not a finite number")
-    return value
+    return value if math.isfinite(value) else _NotFinite(literal)
 
 
 _PARSERS: Mapping[Syntax, Callable[[str], object]] = MappingProxyType(
@@ -133,16 +163,18 @@ _PARSERS: Mapping[Syntax, Callable[[str], object]] = MappingProxyType(
 
 
 def _check_characters(parsed: object) -> None:
-    """Refuse half a surrogate pair, which JSON can escape and no text can hold."""
+    """Refuse half a surrogate pair, which a Python text can hold and no document can."""
     json.dumps(parsed, ensure_ascii=False, default=str).encode("utf-8")
 
 
 def _reason(error: Exception) -> str:
+    if isinstance(error, _Fault):
+        return str(error)
     if isinstance(error, UnicodeEncodeError):
         return "half of a surrogate pair"
     if isinstance(error, RecursionError):
         return "one nested too deeply"
-    return shown(str(error)).strip('"')
+    return shown(str(error)).removeprefix('"').removesuffix('"')
 
 
 # ---- overrides ---------------------------------------------------------------------------------------------

@@ -13,12 +13,20 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from nacreous.errors import FileFormatError
+from nacreous.tables.digest import array_bytes, digest
 from nacreous.tables.spec import Spec
+from nacreous.tables.spec_document import Syntax
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["Part", "Table", "Variable"]
+
+
+_PREFIX = "nacreous:"
+_OF_COPIES = (f"{_PREFIX}values", f"{_PREFIX}checksum")
+"""Attributes that a dataset or a file has and a table has not."""
 
 
 class Part(Enum):
@@ -92,28 +100,61 @@ class Table:
         def entry(variable: Variable) -> tuple[tuple[str, ...], NDArray[Any], dict[str, str]]:
             return variable.dims, variable.values, {"units": variable.unit, "long_name": variable.meaning}
 
+        provenance = {**self.provenance, "values": self._digest()}
         return xarray.Dataset(
             {name: entry(variable) for name, variable in self.variables.items()},
             {name: entry(variable) for name, variable in self.coords.items()},
-            {f"nacreous:{key}": value for key, value in self.provenance.items()},
+            {f"{_PREFIX}{key}": value for key, value in provenance.items()},
         )
+
+    def _digest(self) -> str:
+        """Return what every change of the values, the axes or the provenance changes."""
+        arrays = {**self.coords, **self.variables}
+        dims = {name: ",".join(variable.dims) for name, variable in arrays.items()}
+        values = array_bytes({name: variable.values for name, variable in arrays.items()})
+        return digest({**self.provenance, "dims": json.dumps(dims, sort_keys=True)}, values)
 
     @classmethod
     def from_xarray(cls, dataset: "xarray.Dataset") -> Self:
-        """Return the table that `to_xarray` made a dataset of."""
+        """Return the table that `to_xarray` made a dataset of.
 
-        def variable(array: "xarray.DataArray") -> Variable:
-            dims = tuple(str(dim) for dim in array.dims)
-            return Variable(dims, np.asarray(array.values), array.attrs["units"], array.attrs["long_name"])
-
+        Raises
+        ------
+        FileFormatError
+            The dataset is none of `to_xarray`'s, or has been changed since: what its provenance says is no
+            longer true of it.
+        """
+        attributes = getattr(dataset, "attrs", {})
         provenance = {
-            str(key).removeprefix("nacreous:"): str(value)
-            for key, value in dataset.attrs.items()
-            if str(key).startswith("nacreous:")
+            str(key).removeprefix(_PREFIX): str(value)
+            for key, value in attributes.items()
+            if str(key).startswith(_PREFIX) and key not in _OF_COPIES
         }
-        return cls(
-            Spec.model_validate_json(provenance["spec"]),
-            {str(name): variable(array) for name, array in dataset.coords.items()},
-            {str(name): variable(array) for name, array in dataset.data_vars.items()},
+        if "spec" not in provenance:
+            raise FileFormatError(
+                f"expected a dataset as nacreous.tabulate returns it, got {_kind(dataset)}; "
+                "write any other with xarray's own to_netcdf"
+            )
+        table = cls(
+            Spec.from_text(provenance["spec"], Syntax.JSON),
+            {str(name): _variable(array) for name, array in dataset.coords.items()},
+            {str(name): _variable(array) for name, array in dataset.data_vars.items()},
             provenance,
         )
+        if attributes.get(f"{_PREFIX}values") != table._digest():
+            raise FileFormatError(
+                "expected a dataset as it was computed, got one that has been changed since, which its id "
+                "and its certificate no longer describe; write it with xarray's own to_netcdf"
+            )
+        return table
+
+
+def _variable(array: "xarray.DataArray") -> Variable:
+    dims = tuple(str(dim) for dim in array.dims)
+    return Variable(
+        dims, np.asarray(array.values), array.attrs.get("units", ""), array.attrs.get("long_name", "")
+    )
+
+
+def _kind(dataset: object) -> str:
+    return "one without provenance" if hasattr(dataset, "attrs") else type(dataset).__name__
