@@ -20,11 +20,8 @@ def kernel_names() -> list[str]:
 
 
 def complete_source(kernel: str) -> str:
-    """Text of a kernel file with every ``#include`` expanded in place.
-
-    Include guards stay, so a header may appear more than once in the text.
-    """
-    return _expand(f"{kernel}.cl")
+    """Text of a kernel file with every ``#include`` expanded in place, a header the first time only."""
+    return _expand(f"{kernel}.cl", set())
 
 
 def kernels_hash() -> str:
@@ -35,12 +32,22 @@ def kernels_hash() -> str:
     return digest.hexdigest()
 
 
-def _expand(file: str) -> str:
+def _expand(file: str, seen: set[str]) -> str:
+    """Expand a file; `seen` holds the headers that are in the text for certain.
+
+    What a header brings in between ``#if`` and ``#endif`` may not be compiled, so it does not count as seen.
+    """
+    seen.add(file)
     lines = [f'#line 1 "{file}"']
+    depth = -1 if file.endswith(".clh") else 0  # a header's own guard is no condition
     for number, line in enumerate((KERNELS / file).read_text(encoding="utf-8").splitlines(), 1):
+        depth += line.startswith("#if") - line.startswith("#endif")
         included = _INCLUDE.fullmatch(line)
-        if included:
-            lines += [_expand(included[1]), f'#line {number + 1} "{file}"']
-        else:
+        if included is None:
             lines.append(line)
+        elif included[1] in seen:
+            lines.append("")
+        else:
+            text = _expand(included[1], set(seen) if depth > 0 else seen)
+            lines += [text, f'#line {number + 1} "{file}"']
     return "\n".join(lines)
