@@ -100,7 +100,7 @@ def _scale_counts(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e:
     alone = _fewest(error, grid.thickness_scale.size, _ALMOST * delta_e)
     if alone is None:
         raise _unreachable(delta_e)
-    return tuple(round(alone * growth) for growth in _GROWTHS)
+    return tuple(count for growth in _GROWTHS if (count := round(alone * growth)) <= MAX_POINTS)
 
 
 def _fewest(error: Callable[[int], float], least: int, allowed: float) -> int | None:
