@@ -2,39 +2,63 @@
 
 Lines that begin with ``#`` hold the provenance, the last one the checksum of all the others;
 ``pandas.read_csv(path, comment="#")`` reads the rest.
-Columns are ``thickness_scale, cos_theta, wavelength_nm, R_s, R_p, T_s, T_p``, and ``psi, Delta`` in radians
-where the table has them; the wavelength changes fastest. Nine digits give every float32 back exactly, and
-seventeen every float64 (IEEE 754-2008, section 5.12.2).
+Columns are the axes of the table, then its values; the wavelength changes fastest. Nine digits give every
+float32 back exactly, and seventeen every float64 (IEEE 754-2008, section 5.12.2).
+
+========  ==================================================================================================
+fresnel   ``thickness_scale, cos_theta, wavelength_nm, R_s, R_p, T_s, T_p``, and any ``psi, Delta`` in radians
+albedo    ``roughness, thickness_scale, cos_theta, wavelength_nm, E_r, E_t``
+bsdf      ``roughness, [phi_i,] theta_i, theta_o, phi, wavelength_nm, f_r, f_t``, up to a million rows
+========  ==================================================================================================
 """
 
-from collections.abc import Iterable, Iterator
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from io import StringIO
+from itertools import product, takewhile
 from pathlib import Path
+from types import MappingProxyType
 from typing import TextIO
 
 import numpy as np
 
-from nacreous.errors import FileFormatError, reason
+from nacreous.errors import FileFormatError, SpecError, reason
 from nacreous.formats.atomic import replacing
 from nacreous.formats.contents import CHECKSUM, Contents, checksum, labelled, provenance_of
 from nacreous.formats.lookup import required
+from nacreous.formats.spec_axes import AXES, spec_axes
+from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 
-__all__ = ["SUFFIX", "read", "write"]
+__all__ = ["SUFFIX", "check", "read", "write"]
 
 SUFFIX = ".csv"
 
-_AXES = ("thickness_scale", "cos_theta", "wavelength_nm")
-_FLUXES = ("R_s", "R_p", "T_s", "T_p")
+_SPECTRA: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"fresnel": ("R_s", "R_p", "T_s", "T_p"), "albedo": ("E_r", "E_t"), "bsdf": ("f_r", "f_t")}
+)
 _ELLIPSOMETRY = ("psi", "Delta")
+_MOST_ROWS: Mapping[str, int] = MappingProxyType({"bsdf": 1_000_000})
+"""Rows that a spreadsheet still opens: Excel and LibreOffice have 1,048,576."""
 _DIGITS = {4: 9, 8: 17}
 """Digits that tell all numbers apart, by their size in bytes."""
 
 
+def check(spec: Spec) -> None:
+    """Refuse a spec whose table has more rows than a spreadsheet; raises `SpecError`."""
+    quantity = spec.table.quantity
+    rows = math.prod(axis.samples.size for axis in spec_axes(spec).values())
+    most = _MOST_ROWS.get(quantity, rows)
+    if rows > most:
+        remedy = "npz and netcdf hold it, or choose fewer angles or wavelengths"
+        raise SpecError("format", f"a {quantity} table of at most {most:,} rows as csv", f"{rows:,}", remedy)
+
+
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write the spectra of `table` and return the file; raises `FileFormatError`."""
-    names = [*_FLUXES, *(name for name in _ELLIPSOMETRY if name in table.variables)]
-    values = np.stack([required(table, name) for name in names], axis=-1)  # (S, A, L, columns)
+    spectra = _SPECTRA[table.spec.table.quantity]
+    names = [*spectra, *(name for name in _ELLIPSOMETRY if name in table.variables)]
+    values = np.stack([required(table, name) for name in names], axis=-1)  # (…, L, columns)
     texts = {name: " ".join(text.split()) for name, text in labelled(table.provenance).items()}
     with replacing(path) as (temporary,), temporary.open("x", encoding="utf-8", newline="\n") as file:
         file.writelines(_comment(name, text) for name, text in texts.items())
@@ -55,18 +79,14 @@ def _written(file: TextIO, lines: Iterable[str]) -> Iterator[bytes]:
 
 
 def _lines(table: Table, names: list[str], values: np.ndarray) -> Iterator[str]:
-    yield ",".join((*_AXES, *names)) + "\n"
-    for scale, at_scale in zip(table.values("thickness_scale").tolist(), values, strict=True):
-        yield from _rows(table, scale, at_scale)
-
-
-def _rows(table: Table, scale: float, values: np.ndarray) -> Iterator[str]:
-    """Yield the lines of one thickness, values (A, L, columns)."""
-    wavelengths = [f"{nm!r}," for nm in table.values("wavelength_nm").tolist()]
+    axes = table.variables[names[0]].dims
+    yield ",".join((*axes, *names)) + "\n"
+    *outer, wavelengths = ([f"{sample!r}," for sample in table.values(axis).tolist()] for axis in axes)
     row = ",".join([f"%.{_DIGITS[values.dtype.itemsize]}g"] * values.shape[-1]) + "\n"
-    for cosine, at_cosine in zip(table.values("cos_theta").tolist(), values.tolist(), strict=True):
-        start = f"{scale!r},{cosine!r},"
-        yield from (start + nm + row % tuple(at) for nm, at in zip(wavelengths, at_cosine, strict=True))
+    for start, spectra in zip(product(*outer), values.reshape(-1, *values.shape[-2:]), strict=True):
+        before = "".join(start)
+        samples = zip(wavelengths, spectra.tolist(), strict=True)
+        yield from (before + nm + row % tuple(sample) for nm, sample in samples)
 
 
 def read(path: Path) -> Contents:
@@ -85,8 +105,9 @@ def read(path: Path) -> Contents:
 
 def _columns(lines: list[str]) -> dict[str, np.ndarray]:
     names = lines[0].split(",") if lines else []
-    if tuple(names[:3]) != _AXES or len(lines) < 2:
-        raise FileFormatError(f"expected the columns {', '.join(_AXES)}, … and rows, got neither")
+    axes = tuple(takewhile(AXES.__contains__, names))
+    if axes[-1:] != ("wavelength_nm",) or len(lines) < 2:
+        raise FileFormatError("expected columns such as cos_theta, wavelength_nm, R_s, … and rows, got none")
     try:
         values = np.loadtxt(StringIO("\n".join(lines[1:])), delimiter=",", ndmin=2)
     except ValueError as error:

@@ -2,7 +2,8 @@
 
 Axes and files are those of the `exr` format. Text chunks carry the provenance, and
 ``nacreous:gamut.outside``, the share of texels that clipping has changed. It is a picture, not data: 8 bits
-band, and a shader wants the linear values of the EXR.
+band, and a shader wants the linear values of the EXR. Lobes of a BSDF are clipped where they are brighter
+than 1 / sr.
 """
 
 from collections.abc import Mapping
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
 from nacreous.formats.contents import CHECKSUM, PREFIX, Contents, checksum, provenance_of
-from nacreous.formats.lookup import colour_quantities, lookup_attributes, lookup_files, lookup_rows, required
+from nacreous.formats.lookup import coloured_names, colours, lookup_attributes, lookup_files
 from nacreous.formats.srgb import encoded, out_of_gamut, rec709
 from nacreous.tables.digest import array_bytes
 from nacreous.tables.table import Table
@@ -29,24 +30,24 @@ _PERCEPTUAL = b"\x00"
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write the colours of `table` and return the files; raises `FileFormatError`."""
-    files, obsolete = lookup_files(path, SUFFIX, colour_quantities(table), read)
+    files, obsolete = lookup_files(table, path, SUFFIX, coloured_names(table), read)
     with replacing(*files.values(), obsolete=obsolete) as temporaries:
-        for quantity, temporary in zip(files, temporaries, strict=True):
-            _write_picture(table, quantity, temporary)
+        for name, temporary in zip(files, temporaries, strict=True):
+            _write_picture(table, name, temporary)
     return tuple(files.values())
 
 
-def _write_picture(table: Table, quantity: str, path: Path) -> None:
+def _write_picture(table: Table, name: str, path: Path) -> None:
     from PIL import Image
     from PIL.PngImagePlugin import PngInfo
 
-    colours = rec709(lookup_rows(required(table, f"{quantity}_rgb")), table.spec.colour)  # (H, W, 3)
-    texts = lookup_attributes(table, quantity) | {f"{PREFIX}gamut.outside": f"{out_of_gamut(colours):.4f}"}
-    pixels = encoded(colours)
+    linear = rec709(colours(table, name), table.spec.colour)  # (H, W, 3)
+    texts = lookup_attributes(table, name) | {f"{PREFIX}gamut.outside": f"{out_of_gamut(linear):.4f}"}
+    pixels = encoded(linear)
     chunks = PngInfo()
     chunks.add(b"sRGB", _PERCEPTUAL)
-    for name, text in {**texts, CHECKSUM: _checksum(texts, pixels)}.items():
-        chunks.add_text(name, text)
+    for key, text in {**texts, CHECKSUM: _checksum(texts, pixels)}.items():
+        chunks.add_text(key, text)
     Image.fromarray(pixels).save(path, format="PNG", pnginfo=chunks)
 
 

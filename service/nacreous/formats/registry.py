@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from nacreous.errors import SpecError
 from nacreous.formats import csv, exr, netcdf, npz, png, spectral_exr
+from nacreous.formats.atlas import LAYOUTS
 from nacreous.formats.contents import Contents
 from nacreous.formats.names import FormatName
 from nacreous.optics.value import did_you_mean, shown
@@ -23,11 +24,15 @@ from nacreous.tables.table import Part, Table
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["FORMATS", "Format", "find_format", "format_of", "parts_of", "write"]
+__all__ = ["FORMATS", "Format", "check_holds", "find_format", "format_of", "parts_of", "write"]
 
 _COLOUR = frozenset({Part.COLOUR})
 _SPECTRUM = frozenset({Part.SPECTRUM})
 _BOTH = _COLOUR | _SPECTRUM
+
+
+def _accept(_: Spec) -> None:
+    """Refuse no spec."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +55,10 @@ class Format:
         Writes a table to a path, all or nothing, and returns every file; raises `FileFormatError`.
     read : callable
         Reads a file that `write` wrote; raises `FileFormatError`.
+    quantities : frozenset of str
+        Of which quantities the file can be.
+    check : callable
+        Refuses a spec of such a quantity whose table the file cannot hold; raises `SpecError`.
     """
 
     name: FormatName
@@ -60,6 +69,8 @@ class Format:
     advice: str
     write: Callable[[Table, Path], tuple[Path, ...]]
     read: Callable[[Path], Contents]
+    quantities: frozenset[str] = frozenset(LAYOUTS)
+    check: Callable[[Spec], None] = _accept
 
 
 _ALL = (
@@ -82,6 +93,7 @@ _ALL = (
         "spectra for spectral renderers; more channels than Blender can load",
         spectral_exr.write,
         spectral_exr.read,
+        quantities=spectral_exr.QUANTITIES,
     ),
     Format(
         FormatName.NPZ,
@@ -112,6 +124,7 @@ _ALL = (
         "the spectra, one row a sample, for spreadsheets",
         csv.write,
         csv.read,
+        check=csv.check,
     ),
     Format(
         FormatName.PNG,
@@ -147,8 +160,25 @@ def format_of(path: Path) -> Format:
     return max(fitting, key=lambda entry: len(entry.suffix))
 
 
+def check_holds(chosen: Format, spec: Spec) -> None:
+    """Refuse a format that cannot hold the table of `spec`; raises `SpecError` with those that can."""
+    quantity = spec.table.quantity
+    if quantity not in chosen.quantities:
+        able = [entry.name for entry in _ALL if quantity in entry.quantities]
+        raise SpecError("format", f"one that holds a {quantity} table, {', '.join(able)}", f'"{chosen.name}"')
+    chosen.check(spec)
+
+
 def parts_of(formats: Sequence[Format], spec: Spec) -> frozenset[Part]:
-    """Return what has to be computed of `spec`: all that the formats hold, or need where it has no colour."""
+    """Return what has to be computed of `spec`: all that the formats hold, or need where it has no colour.
+
+    Raises
+    ------
+    SpecError
+        A format cannot hold the table of `spec`.
+    """
+    for entry in formats:
+        check_holds(entry, spec)
     coloured = has_colour(wavelength_values_nm(spec.table.wavelength_nm))
     parts = [entry.holds if coloured else entry.needs for entry in formats]
     return frozenset[Part]().union(*parts)
@@ -177,10 +207,12 @@ def write(
     Raises
     ------
     SpecError
-        There is no such format, or no format has this suffix.
+        There is no such format, none has this suffix, or the format cannot hold a table of this quantity.
     FileFormatError
         The table lacks what the format holds, or the file cannot be written. No file has changed.
     """
     target = Path(path)
     chosen = format_of(target) if format is None else find_format(format)
-    return chosen.write(table if isinstance(table, Table) else Table.from_xarray(table), target)
+    computed = table if isinstance(table, Table) else Table.from_xarray(table)
+    check_holds(chosen, computed.spec)
+    return chosen.write(computed, target)

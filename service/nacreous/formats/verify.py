@@ -2,7 +2,8 @@
 
 import hashlib
 import json
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,16 +12,17 @@ import numpy as np
 from nacreous.errors import NacreousError, reason
 from nacreous.formats.contents import Contents
 from nacreous.formats.registry import format_of
-from nacreous.formats.verify_provenance import AXES, check_provenance, foreign_kernels
+from nacreous.formats.verify_laws import (
+    check_densities,
+    check_energy,
+    check_finite,
+    check_shares,
+    quantities,
+)
+from nacreous.formats.verify_provenance import check_provenance, foreign_kernels
 from nacreous.optics.value import shown
 
 __all__ = ["Verification", "file_sha256", "verify"]
-
-_FLUXES = ("R_s", "R_p", "T_s", "T_p", "R", "T")
-"""Shares of the incident flux; colours and angles may be negative."""
-_LEAST, _LARGEST = -1e-6, 1 + 2e-5
-"""What single precision makes of a flux of 0 and 1 at worst."""
-_PAIRS = (("R_s", "T_s"), ("R_p", "T_p"))
 
 
 @dataclass(frozen=True)
@@ -92,8 +94,8 @@ def verify(path: str | Path) -> Verification:
 
 
 def _examined(path: Path, name: str, checksum: str, contents: Contents) -> Verification:
-    quantities = _quantities(contents)
-    numbers = np.concatenate([np.empty(0), *map(np.ravel, quantities.values())]).astype(np.float64)
+    found = quantities(contents)
+    numbers = np.concatenate([np.empty(0), *map(np.ravel, found.values())]).astype(np.float64)
     finite = numbers[np.isfinite(numbers)]
     return Verification(
         path=path,
@@ -101,7 +103,7 @@ def _examined(path: Path, name: str, checksum: str, contents: Contents) -> Verif
         sha256=checksum,
         id=contents.provenance.get("id", ""),
         version=contents.provenance.get("version", ""),
-        shapes=tuple(f"{key} {'x'.join(map(str, array.shape))}" for key, array in quantities.items()),
+        shapes=tuple(f"{key} {'x'.join(map(str, array.shape))}" for key, array in found.items()),
         values=numbers.size,
         finite=finite.size,
         least=float(finite.min()) if finite.size else np.nan,
@@ -113,59 +115,34 @@ def _examined(path: Path, name: str, checksum: str, contents: Contents) -> Verif
     )
 
 
-def _quantities(contents: Contents) -> dict[str, np.ndarray]:
-    return {
-        name: array
-        for name, array in contents.arrays.items()
-        if name not in AXES and array.dtype.kind in "biuf" and array.size
-    }
-
-
 # ---- one check each ----------------------------------------------------------------------------------------
 
 
-def _check_finite(contents: Contents) -> Iterator[str]:
-    for name, array in _quantities(contents).items():
-        bad = int(np.count_nonzero(~np.isfinite(array)))
-        if bad:
-            yield f"{name}: expected finite values, got {bad} that are not"
-
-
-def _check_fluxes(contents: Contents) -> Iterator[str]:
-    quantities = _quantities(contents)
-    for name in quantities.keys() & set(_FLUXES):
-        least, largest = np.fmin.reduce(quantities[name], None), np.fmax.reduce(quantities[name], None)
-        if least < _LEAST or largest > _LARGEST:
-            yield f"{name}: expected a share from 0 to 1, got {least:.6g} to {largest:.6g}"
-
-
-def _check_energy(contents: Contents) -> Iterator[str]:
-    for R, T in _PAIRS:
-        r, t = (_quantities(contents).get(name, np.zeros(1)) for name in (R, T))
-        if r.shape == t.shape:
-            largest = np.fmax.reduce(r + t, None)
-            if largest > _LARGEST:
-                yield f"{R} + {T}: expected at most 1, got {largest:.6g}"
-
-
 def _check_texels(contents: Contents) -> Iterator[str]:
-    """Compare a picture's size with the axes that its attributes describe."""
-    for direction, name in enumerate(("axis.y", "axis.x")):
-        if name not in contents.provenance:
-            continue
-        count = _count(contents.provenance[name])
-        for quantity, array in _quantities(contents).items():
-            texels = array.shape[direction]
-            if texels != count:
-                yield f"nacreous:{name}: expected {texels} texels as {quantity} has, got {count}"
+    """Compare a picture's size with the axes and tiles that its attributes describe."""
+    for direction, side in enumerate("yx"):
+        described = [key for key in (f"axis.{side}", f"tiles.{side}") if key in contents.provenance]
+        if described:
+            yield from _check_side(contents, direction, described)
 
 
-def _count(axis: str) -> object:
-    """Return the number of texels that the JSON of an axis says; None where it says none."""
+def _check_side(contents: Contents, direction: int, described: Sequence[str]) -> Iterator[str]:
+    counts = [_count(contents.provenance[key]) for key in described]
+    expected = None if None in counts else math.prod(count for count in counts if count is not None)
+    for name, array in quantities(contents).items():
+        texels = array.shape[direction]
+        if texels != expected:
+            attributes = " times ".join(f"nacreous:{key}" for key in described)
+            yield f"{attributes}: expected {texels} texels as {name} has, got {expected}"
+
+
+def _count(axis: str) -> int | None:
+    """Return the number that the JSON of an axis, or of tiles, says; None where it says none."""
     try:
-        return json.loads(axis)["count"]
+        count = json.loads(axis)["count"]
     except (ValueError, KeyError, TypeError, RecursionError):
         return None
+    return count if isinstance(count, int) else None
 
 
 def _check_checksum(contents: Contents) -> Iterator[str]:
@@ -180,9 +157,10 @@ def _check_checksum(contents: Contents) -> Iterator[str]:
 
 _CHECKS: tuple[Callable[[Contents], Iterator[str]], ...] = (
     _check_checksum,
-    _check_finite,
-    _check_fluxes,
-    _check_energy,
+    check_finite,
+    check_shares,
+    check_densities,
+    check_energy,
     _check_texels,
     check_provenance,
 )

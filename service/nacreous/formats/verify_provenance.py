@@ -2,30 +2,27 @@
 
 import json
 import re
-from collections.abc import Iterator
-from dataclasses import fields
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.errors import SpecError
+from nacreous.formats.atlas import LAYOUTS, atlas_of
 from nacreous.formats.contents import Contents
-from nacreous.formats.lookup import axis_attribute, colour_facts
+from nacreous.formats.lookup import colour_facts
+from nacreous.formats.spec_axes import spec_axes
 from nacreous.opencl.sources import kernels_hash
 from nacreous.optics.value import shown
-from nacreous.tables.axes import cos_theta_values, thickness_scale_values, wavelength_values_nm
-from nacreous.tables.certificate import Certificate
+from nacreous.tables.certificate import certificate_fields
 from nacreous.tables.identity import table_id
 from nacreous.tables.spec import Spec
 from nacreous.tables.spec_document import Syntax
 
-__all__ = ["AXES", "check_provenance", "foreign_kernels"]
-
-AXES = ("thickness_scale", "cos_theta", "wavelength_nm", "channel")
-"""Arrays of a file that are no quantities."""
+__all__ = ["check_provenance", "foreign_kernels"]
 
 _PROMISED = ("id", "version", "spec", "certificate", "precision", "device", "kernels", "checksum")
-_OF_PICTURES = ("quantity", "axis.x", "axis.y", "colour.space", "colour.illuminant", "colour.observer")
 _SHA256 = re.compile(r"[0-9a-f]{64}")
 _NM = 1e-6
 """To how many nm the name of a channel says its wavelength."""
@@ -38,31 +35,29 @@ def foreign_kernels(contents: Contents) -> bool:
 
 def check_provenance(contents: Contents) -> Iterator[str]:
     """Yield what is missing, does not hold, or contradicts the spec."""
-    promised = _PROMISED if "cos_theta" in contents.arrays else (*_PROMISED, *_OF_PICTURES)
-    missing = [key for key in promised if key not in contents.provenance]
-    if missing:
-        yield f"expected the attributes {', '.join(f'nacreous:{key}' for key in missing)}, got none"
+    yield from _check_promised(contents, _PROMISED)
     yield from _check_certificate(contents)
     try:
         spec = Spec.from_text(contents.provenance.get("spec", ""), Syntax.JSON)
-        agree = [*_check_id(contents, spec), *_check_colour(contents, spec), *_check_axes(contents, spec)]
+        found = [problem for check in _AGREEMENTS for problem in check(contents, spec)]
     except SpecError as error:
         yield f"nacreous:spec: {error}"
     else:
-        yield from agree
+        yield from found
+
+
+def _check_promised(contents: Contents, promised: Iterable[str]) -> Iterator[str]:
+    missing = [key for key in promised if key not in contents.provenance]
+    if missing:
+        yield f"expected the attributes {', '.join(f'nacreous:{key}' for key in missing)}, got none"
 
 
 def _check_certificate(contents: Contents) -> Iterator[str]:
-    """Require the figures that this version knows, of a file that it has written; others may have others."""
     certificate = _parsed(contents.provenance.get("certificate", ""))
     if not isinstance(certificate, dict) or not all(
         value is None or isinstance(value, int | float) for value in certificate.values()
     ):
         yield f"nacreous:certificate: expected an object of numbers, got {shown(certificate)}"
-        return
-    absent = [field.name for field in fields(Certificate) if field.name not in certificate]
-    if absent and not foreign_kernels(contents):
-        yield f"nacreous:certificate: expected the figures {', '.join(absent)}, got none"
 
 
 def _parsed(text: str) -> object:
@@ -70,6 +65,19 @@ def _parsed(text: str) -> object:
         return json.loads(text)
     except (ValueError, RecursionError):
         return text
+
+
+# ---- agreement with the spec -------------------------------------------------------------------------------
+
+
+def _check_figures(contents: Contents, spec: Spec) -> Iterator[str]:
+    """Require the figures that this version knows, of a file that it has written; others may have others."""
+    certificate = _parsed(contents.provenance.get("certificate", ""))
+    if not isinstance(certificate, dict) or foreign_kernels(contents):
+        return
+    absent = [name for name in certificate_fields(spec.table.quantity) if name not in certificate]
+    if absent:
+        yield f"nacreous:certificate: expected the figures {', '.join(absent)}, got none"
 
 
 def _check_id(contents: Contents, spec: Spec) -> Iterator[str]:
@@ -88,23 +96,13 @@ def _check_colour(contents: Contents, spec: Spec) -> Iterator[str]:
             yield f"nacreous:{key}: expected {expected}, as the spec says, got {shown(got)}"
 
 
-def _check_axes(contents: Contents, spec: Spec) -> Iterator[str]:
-    """Compare axes with the spec's, whether they are arrays or the attributes of a picture."""
-    axes = spec.table
-    expected = {
-        "thickness_scale": thickness_scale_values(axes.thickness_scale),
-        "cos_theta": cos_theta_values(axes.cos_theta),
-        "wavelength_nm": wavelength_values_nm(axes.wavelength_nm),
-    }
+def _check_arrays(contents: Contents, spec: Spec) -> Iterator[str]:
+    """Compare axes that are arrays with the spec's."""
     refined = spec.accuracy.delta_e is not None
-    for name in expected.keys() & contents.arrays.keys():
-        if not _is_axis(np.unique(contents.arrays[name]), expected[name], refined=refined):
+    axes = spec_axes(spec)
+    for name in axes.keys() & contents.arrays.keys():
+        if not _is_axis(np.unique(contents.arrays[name]), axes[name].samples, refined=refined):
             yield f"{name}: expected the axis of the spec, got another"
-    for key, name in (("axis.x", "cos_theta"), ("axis.y", "thickness_scale")):
-        got = _parsed(contents.provenance.get(key, "null"))
-        wanted = json.loads(axis_attribute(name, expected[name]))
-        if key in contents.provenance and not _is_described(got, wanted, refined=refined):
-            yield f"nacreous:{key}: expected {name} as the spec has it, got {shown(contents.provenance[key])}"
 
 
 def _is_axis(got: NDArray[np.float64], expected: NDArray[np.float64], *, refined: bool) -> bool:
@@ -114,9 +112,53 @@ def _is_axis(got: NDArray[np.float64], expected: NDArray[np.float64], *, refined
     return len(got) == len(expected) and np.allclose(got, expected, rtol=0, atol=_NM)
 
 
-def _is_described(got: object, wanted: dict[str, object], *, refined: bool) -> bool:
-    """Tell whether an attribute says what the spec does; of a refined axis, all that refinement leaves."""
+def _check_picture(contents: Contents, spec: Spec) -> Iterator[str]:
+    """Compare what a picture says of itself with what its spec makes of it; arrays have axes of their own."""
+    layout = LAYOUTS[spec.table.quantity]
+    if layout.x in contents.arrays:
+        return
+    wanted = atlas_of(spec.table.quantity, spec_axes(spec)).described()
+    yield from _check_promised(contents, ("quantity", *wanted, *colour_facts(spec.colour)))
+    name = contents.provenance.get("quantity", layout.names[0])
+    if name not in layout.names:
+        yield f"nacreous:quantity: expected {' or '.join(layout.names)}, as the spec says, got {shown(name)}"
+    refined = spec.accuracy.delta_e is not None
+    for key in wanted.keys() & contents.provenance.keys():
+        got = contents.provenance[key]
+        if not _is_described(_parsed(got), wanted[key], refined=refined):
+            yield f"nacreous:{key}: expected {_names(wanted[key])} as the spec has it, got {shown(got)}"
+
+
+def _is_described(got: object, wanted: Mapping[str, Any], *, refined: bool) -> bool:
+    """Tell whether an attribute says what the spec does; of refined axes, all that refinement leaves."""
     if not isinstance(got, dict):
         return False
-    compared = ("name", "unit", "range") if refined else (*wanted, "values")
-    return all(got.get(key) == wanted.get(key) for key in compared)
+    if refined:
+        return _outline(got) == _outline(wanted)
+    return all(got.get(key) == wanted.get(key) for key in (*wanted, "values"))
+
+
+def _outline(described: Mapping[str, Any]) -> object:
+    """Return names, units and ends of the axes; None where there is no telling."""
+    try:
+        axes = described.get("axes", [described])
+        return [(axis["name"], axis["unit"], axis.get("range") or _ends(axis["values"])) for axis in axes]
+    except (KeyError, TypeError, IndexError, AttributeError):
+        return None
+
+
+def _ends(values: list[float]) -> list[float]:
+    return [values[0], values[-1]]
+
+
+def _names(described: Mapping[str, Any]) -> str:
+    return ", ".join(str(axis["name"]) for axis in described.get("axes", [described]))
+
+
+_AGREEMENTS: tuple[Callable[[Contents, Spec], Iterator[str]], ...] = (
+    _check_figures,
+    _check_id,
+    _check_colour,
+    _check_arrays,
+    _check_picture,
+)

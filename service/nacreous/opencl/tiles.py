@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from nacreous.errors import DeviceError
 from nacreous.opencl.device import Device
 
-__all__ = ["Observer", "Tile", "TileRunner", "row_tiles"]
+__all__ = ["Observer", "Tile", "TileRunner", "row_tiles", "step_of"]
 
 Observer = Callable[[float], None]
 """Told the fraction done, 0 to 1, after every tile; what it raises ends the work."""
@@ -24,6 +24,11 @@ _TARGET_SECONDS = 0.1
 _FIRST_TILE_EVALUATIONS = 5_000_000
 _MOST_TILE_BYTES = 32 * 2**20
 _MOST_GROWTH = 4
+
+
+def step_of(observer: Observer | None, done: int, steps: int) -> Observer | None:
+    """Return an observer of the step after `done` of equally long `steps`."""
+    return None if observer is None else lambda fraction: observer((done + fraction) / steps)
 
 
 @dataclass(frozen=True)

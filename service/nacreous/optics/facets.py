@@ -12,6 +12,8 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from nacreous.optics.quadrature import gauss_legendre
+
 __all__ = ["FacetRule", "facet_quadrature", "incident_azimuths"]
 
 FloatArray = NDArray[np.float64]
@@ -68,9 +70,8 @@ def facet_quadrature(distribution: str, alphas: FloatArray, rule: FacetRule) -> 
         Along x and y. Where both are equal everywhere the facets are those of a half circle, y > 0: the
         light comes in the plane y = 0.
     """
-    nodes, gauss = np.polynomial.legendre.leggauss(rule.tilts)
-    rest = (1 - nodes) / 2  # (tilts,)
-    log_steeper, tilt_weight = 2 * np.log(rest), gauss * rest
+    rest, gauss = gauss_legendre(rule.tilts)  # square root of the share of steeper facets
+    log_steeper, tilt_weight = 2 * np.log(rest), 2 * gauss * rest
     turn, turn_weight = _turns(alphas, rule)  # (R, P, directions), (directions,)
     tilt, along_x, along_y = _INVERSES[distribution](
         log_steeper[:, None], turn[:, :, None], alphas[:, :, None, None, None]
@@ -92,11 +93,10 @@ def _turns(alphas: FloatArray, rule: FacetRule) -> tuple[FloatArray, FloatArray]
     Facets of slopes t (alpha_x cos, alpha_y sin) are grazed by flat light from the azimuth phi a quarter turn
     away from atan2(alpha_y sin phi, alpha_x cos phi).
     """
-    nodes, gauss = np.polynomial.legendre.leggauss(rule.directions // 2)
-    distance = (1 + nodes) / 2
+    distance, gauss = gauss_legendre(rule.directions // 2)
     beside = np.pi / 2 * distance**2
     turn = np.concatenate([np.pi / 2 - beside, np.pi / 2 + beside])
-    weight = np.tile(gauss * distance, 2) / 2
+    weight = np.tile(gauss * distance, 2)
     if not _isotropic(alphas):
         turn, weight = np.concatenate([turn, turn + np.pi]), np.tile(weight, 2) / 2
     phi = incident_azimuths(alphas, rule)

@@ -148,12 +148,16 @@ class SellmeierMaterial(StrictModel):
 
 
 class Mixture(StrictModel):
-    """Inclusions of volume share `fraction` in a host, far finer than the wavelength."""
+    """Inclusions of volume share `fraction` in a host, far finer than the wavelength.
+
+    They are spheres by the rules ``"bruggeman"`` and ``"maxwell-garnett"``, and by ``"lamellar"`` upright
+    lamellae, such as ridges on a wing: see `nacreous.optics.effective_medium`.
+    """
 
     host: "Material"
     inclusion: "Material"
     fraction: Annotated[Number, Field(ge=0, le=1)]
-    rule: Literal["bruggeman", "maxwell-garnett"]
+    rule: Literal["bruggeman", "maxwell-garnett", "lamellar"]
 
     @model_validator(mode="after")
     def _check_depth(self) -> Self:

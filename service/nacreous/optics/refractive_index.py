@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from nacreous.errors import SpecError
 from nacreous.optics import dispersion
 from nacreous.optics.dispersion import Curve, Dispersion
-from nacreous.optics.effective_medium import bruggeman, maxwell_garnett
+from nacreous.optics.effective_medium import bruggeman, lamellar, maxwell_garnett
 from nacreous.optics.library import library_material
 from nacreous.optics.material import (
     MAX_INDEX,
@@ -39,7 +39,7 @@ _ROUNDING = 1e-9
 """Relative slack at the ends of a range, for wavelengths that were converted between units."""
 
 _MIXING: Mapping[str, Callable[[ComplexArray, ComplexArray, float], ComplexArray]] = MappingProxyType(
-    {"bruggeman": bruggeman, "maxwell-garnett": maxwell_garnett}
+    {"bruggeman": bruggeman, "maxwell-garnett": maxwell_garnett, "lamellar": lamellar}
 )
 
 

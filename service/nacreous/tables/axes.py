@@ -1,7 +1,8 @@
 """The axes of a table: how a spec writes them, and the numbers they stand for.
 
-An axis is a list, a range ``{ start, stop, step }`` or ``{ start, stop, count }``, or, for `cos_theta`, a
-count of equally spaced values over [0, 1]. Its values ascend strictly and there are 2 to 65,536 of them.
+An axis is a list, a range ``{ start, stop, step }`` or ``{ start, stop, count }``, or, where it has natural
+ends, a count of equally spaced values between them. Its values ascend strictly and there are 2 to 65,536 of
+them; a list of roughnesses or of the angles of a `bsdf` may hold one alone.
 """
 
 import math
@@ -12,15 +13,25 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, model_validator
 
+from nacreous.optics.surface import MAX_ALPHA, MIN_ALPHA
 from nacreous.optics.value import REFUSED, AsTuple, Number, StrictModel, form_tag, refusal
 
 __all__ = [
+    "HALF_TURN",
     "MAX_POINTS",
+    "QUARTER_TURN",
+    "WHOLE_TURN",
+    "AzimuthAxis",
     "CosThetaAxis",
+    "PolarAngleAxis",
     "Range",
+    "RoughnessAxis",
     "ThicknessScaleAxis",
     "WavelengthAxis",
     "cos_theta_values",
+    "phi_values",
+    "roughness_axis_values",
+    "theta_values",
     "thickness_scale_values",
     "wavelength_values_nm",
 ]
@@ -29,6 +40,16 @@ FloatArray = NDArray[np.float64]
 
 MAX_POINTS = 65_536
 """Points of one axis; more is a slip of the keyboard, and no renderer loads an image that wide."""
+
+QUARTER_TURN, HALF_TURN, WHOLE_TURN = (0.0, math.pi / 2), (0.0, math.pi), (-math.pi, math.pi)
+"""Ends of an azimuth in radians, where it is a count."""
+
+MAX_COUNTED_THETA = math.radians(89.0)
+"""Where a count of polar angles ends: at 90 degrees there is no light, and no bsdf."""
+MAX_THETA = 1.5707
+"""Largest polar angle of a list or a range: its cosine is 1e-4."""
+MAX_PHI = 3.1416
+"""Largest azimuth: pi as it is written, so that nobody is refused for rounding it up."""
 
 _MANY = 1e12
 """Points beyond which a message has no use for every digit."""
@@ -100,7 +121,7 @@ def _check_ascending(values: FloatArray) -> None:
         raise refusal("strictly ascending values", f"{earlier:.12g} followed by {later:.12g}")
 
 
-_LIST, _RANGE, _COUNT = form_tag("list"), form_tag("range"), form_tag("count")
+_LIST, _RANGE, _COUNT, _ABSENT = map(form_tag, ("list", "range", "count", "absent"))
 
 
 def _form(value: object) -> str | None:
@@ -123,6 +144,11 @@ def _scale_form(value: object) -> str | None:
     return _COUNT if one else _spaced_form(value)
 
 
+def _optional(form: Callable[[object], str | None]) -> Callable[[object], str | None]:
+    """Let an axis be None as well: a spec that leaves it out."""
+    return lambda value: _ABSENT if value is None else form(value)
+
+
 def _one_of(form: Callable[[object], str | None], expected: str) -> Discriminator:
     return Discriminator(
         form,
@@ -133,9 +159,13 @@ def _one_of(form: Callable[[object], str | None], expected: str) -> Discriminato
 
 
 AxisList = Annotated[tuple[Number, ...], Field(min_length=2, max_length=MAX_POINTS), AsTuple]
+SliceList = Annotated[tuple[Number, ...], Field(min_length=1, max_length=MAX_POINTS), AsTuple]
 _WAVELENGTH_NM = _within(100.0, 100_000.0, " nm")
 _COSINE = _within(0.0, 1.0)
 _SCALE = _within(1e-6, 100.0)
+_ROUGHNESS = _within(MIN_ALPHA, MAX_ALPHA)
+_THETA = _within(0.0, MAX_THETA, " rad")
+_PHI = _within(-MAX_PHI, MAX_PHI, " rad")
 
 WavelengthAxis = Annotated[
     Annotated[AxisList, _WAVELENGTH_NM, Tag(_LIST)] | Annotated[Range, _WAVELENGTH_NM, Tag(_RANGE)],
@@ -159,6 +189,32 @@ ThicknessScaleAxis = Annotated[
 ]
 """Factors on every layer's thickness: 1 for the thickness as it is, a list or a range."""
 
+RoughnessAxis = Annotated[
+    Annotated[SliceList, _ROUGHNESS, Tag(_LIST)]
+    | Annotated[Range, _ROUGHNESS, Tag(_RANGE)]
+    | Annotated[None, Tag(_ABSENT)],
+    _one_of(_optional(_spaced_form), "a list, { start, stop, step } or { start, stop, count }"),
+]
+"""Roughness sqrt(alpha_x alpha_y), 0.001 to 1: a list or a range; None where the surface's own is meant."""
+
+PolarAngleAxis = Annotated[
+    Annotated[int, Field(ge=2, le=MAX_POINTS), Tag(_COUNT)]
+    | Annotated[SliceList, _THETA, Tag(_LIST)]
+    | Annotated[Range, _THETA, Tag(_RANGE)]
+    | Annotated[None, Tag(_ABSENT)],
+    _one_of(_optional(_form), "a count over 0 to 89 degrees, a list or a range in radians"),
+]
+"""Angles from the normal in radians: a count over 0 to 89 degrees, a list, a range, or None."""
+
+AzimuthAxis = Annotated[
+    Annotated[int, Field(ge=2, le=MAX_POINTS), Tag(_COUNT)]
+    | Annotated[SliceList, _PHI, Tag(_LIST)]
+    | Annotated[Range, _PHI, Tag(_RANGE)]
+    | Annotated[None, Tag(_ABSENT)],
+    _one_of(_optional(_form), "a count, a list or a range in radians"),
+]
+"""Angles about the normal in radians: a count over what symmetry leaves of them, a list, a range, or None."""
+
 
 def wavelength_values_nm(axis: Range | tuple[float, ...]) -> FloatArray:
     """Return the wavelengths in nm, shape (L,)."""
@@ -173,3 +229,22 @@ def cos_theta_values(axis: Range | tuple[float, ...] | int) -> FloatArray:
 def thickness_scale_values(axis: Range | tuple[float, ...] | int) -> FloatArray:
     """Return the factors on every thickness, shape (S,)."""
     return np.ones(1) if isinstance(axis, int) else _values(axis)
+
+
+def roughness_axis_values(axis: Range | tuple[float, ...]) -> FloatArray:
+    """Return the roughnesses, shape (R,)."""
+    return _values(axis)
+
+
+def theta_values(axis: Range | tuple[float, ...] | int | None, default_count: int) -> FloatArray:
+    """Return angles from the normal in radians; None is the count that is the default."""
+    counted = default_count if axis is None else axis
+    return np.linspace(0.0, MAX_COUNTED_THETA, counted) if isinstance(counted, int) else _values(counted)
+
+
+def phi_values(
+    axis: Range | tuple[float, ...] | int | None, ends: tuple[float, float], default_count: int
+) -> FloatArray:
+    """Return angles about the normal in radians; a count spaces them equally from one end to the other."""
+    counted = default_count if axis is None else axis
+    return np.linspace(*ends, counted) if isinstance(counted, int) else _values(counted)

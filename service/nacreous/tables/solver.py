@@ -14,7 +14,7 @@ from nacreous.optics.stack import Stack, sample_stack
 from nacreous.tables.film import Grid, checked_intensities, film_problem, phase_precision
 from nacreous.tables.thickness_spread import ThicknessSpread, converged_spread, one_thickness
 
-__all__ = ["FilmSolver", "film_solver", "probe_of"]
+__all__ = ["FilmSolver", "film_solver", "probe", "probe_of"]
 
 FloatArray = NDArray[np.float64]
 
@@ -87,10 +87,10 @@ def _spread(device: Device, stack: Stack, grid: Grid) -> ThicknessSpread:
     sampled = sample_stack(stack, grid.wavelength_nm[:1])
     if not sampled.thickness_sigma_nm.any():
         return one_thickness(sampled.thickness_nm.size)
-    probe = probe_of(grid, _SPREAD_PROBES)
+    few = probe_of(grid, _SPREAD_PROBES)
 
     def mean_intensities(spread: ThicknessSpread) -> FloatArray:
-        problem = film_problem(stack, spread, probe)
+        problem = film_problem(stack, spread, few)
         computed = checked_intensities(device, problem, Precision.DOUBLE)
         return np.stack([np.asarray(values, np.float64) for values in computed.values()])
 
@@ -100,10 +100,10 @@ def _spread(device: Device, stack: Stack, grid: Grid) -> ThicknessSpread:
 def probe_of(grid: Grid, counts: tuple[int, int, int]) -> Grid:
     """Return at most so many scales, angles and wavelengths of a grid, evenly spread, the ends among them."""
     axes = (grid.thickness_scale, grid.cos_theta, grid.wavelength_nm)
-    return Grid(*(_probe(axis, count) for axis, count in zip(axes, counts, strict=True)))
+    return Grid(*(probe(axis, count) for axis, count in zip(axes, counts, strict=True)))
 
 
-def _probe(axis: FloatArray, count: int) -> FloatArray:
-    """At most `count` values of an axis, evenly spread, both ends among them."""
+def probe(axis: FloatArray, count: int) -> FloatArray:
+    """Return at most `count` values of an axis, evenly spread, both ends among them."""
     values: FloatArray = axis[np.unique(np.linspace(0, axis.size - 1, count).round().astype(int))]
     return values

@@ -6,17 +6,42 @@ The same spec gives the same bytes: nothing but its fields decides, and `canonic
 import json
 import unicodedata
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, Field, ValidationError
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from nacreous.optics.stack import Stack
+from nacreous.optics.surface import MAX_ALPHA, MIN_ALPHA, Surface, alphas_at
 from nacreous.optics.value import Number, StrictModel, refusal
-from nacreous.tables.axes import CosThetaAxis, Range, ThicknessScaleAxis, WavelengthAxis
+from nacreous.tables.axes import (
+    HALF_TURN,
+    QUARTER_TURN,
+    WHOLE_TURN,
+    phi_values,
+    roughness_axis_values,
+    theta_values,
+)
 from nacreous.tables.spec_document import Document, Syntax, override, parse, read, spec_error
+from nacreous.tables.table_spec import TableSpec
 
-__all__ = ["AccuracySpec", "ColourSpec", "Spec", "TableSpec", "canonical_json", "json_schema"]
+__all__ = [
+    "AccuracySpec",
+    "BsdfAngles",
+    "ColourSpec",
+    "Spec",
+    "TableSpec",
+    "bsdf_angles",
+    "canonical_json",
+    "json_schema",
+    "roughness_values",
+    "surface_of",
+]
+
+FloatArray = NDArray[np.float64]
 
 
 def _check_printable(text: str) -> str:
@@ -33,29 +58,8 @@ ColourScienceName = Annotated[str, Field(min_length=1, max_length=100)]
 LABELS = ("name", "description", "source")
 """The fields of a spec that only a person reads; they are not part of a table's id."""
 
-
-class TableSpec(StrictModel):
-    """What is tabulated, over which axes.
-
-    Parameters
-    ----------
-    quantity : str
-        ``"fresnel"``: R and T of the film for s and p.
-    wavelength_nm : list or range
-        Vacuum wavelengths, 100 to 100,000 nm.
-    cos_theta : count, list or range
-        Cosines of the angle of incidence, 0 to 1; a count spaces them equally over [0, 1].
-    thickness_scale : 1, list or range
-        Factors on every layer's thickness.
-    ellipsometry : bool
-        Whether the table holds psi and Delta as well.
-    """
-
-    quantity: Literal["fresnel"] = "fresnel"
-    wavelength_nm: WavelengthAxis = Range(start=350.0, stop=750.0, step=5.0)
-    cos_theta: CosThetaAxis = 64
-    thickness_scale: ThicknessScaleAxis = 1
-    ellipsometry: bool = False
+_ROUNDING = 1e-9
+"""Relative slack at the ends of the roughness, which a ratio and a root are computed for."""
 
 
 class ColourSpec(StrictModel):
@@ -83,7 +87,7 @@ class AccuracySpec(StrictModel):
         Precision of the kernels, ``"single"`` or ``"double"``.
     delta_e : float, optional
         Colour difference CIEDE2000, 0.05 to 10, that interpolation between the texels may reach; the axes of
-        the spec are then lower bounds.
+        the spec are then lower bounds. A bsdf has none.
     """
 
     precision: Literal["single", "double"] = "single"
@@ -98,6 +102,8 @@ class Spec(StrictModel):
     name, description, source : str
         Labels: what it is, what it shows, and whose numbers it has. They are not part of a table's id.
     stack : Stack
+    surface : Surface, optional
+        Without it the film is ideally smooth, or as rough as the table's roughness axis says.
     table : TableSpec
     colour : ColourSpec
     accuracy : AccuracySpec
@@ -114,9 +120,20 @@ class Spec(StrictModel):
     description: Label = ""
     source: Label = ""
     stack: Stack
+    surface: Surface | None = None
     table: TableSpec = TableSpec()
     colour: ColourSpec = ColourSpec()
     accuracy: AccuracySpec = AccuracySpec()
+
+    @model_validator(mode="after")
+    def _check_across_sections(self) -> Self:
+        _check_roughness(self)
+        _check_phi_i(self)
+        if self.table.quantity == "bsdf" and self.accuracy.delta_e is not None:
+            expected = "nothing for a bsdf, whose angles are the spec's own"
+            remedy = 'leave delta_e out, or take quantity = "fresnel" or "albedo"'
+            raise refusal(expected, f"{self.accuracy.delta_e:g}", remedy, field="accuracy.delta_e")
+        return self
 
     @classmethod
     def from_document(cls, document: Document, overrides: Iterable[str] = ()) -> Self:
@@ -144,6 +161,71 @@ class Spec(StrictModel):
             Assignments such as ``"table.cos_theta=256"``, carried out before the spec is validated.
         """
         return cls.from_document(read(Path(path)), overrides)
+
+
+@dataclass(frozen=True, eq=False)
+class BsdfAngles:
+    """Angles in radians of a bsdf: `theta_i` (I,), `theta_o` (O,), `phi` (P,), `phi_i` (Q,).
+
+    `phi_i` is the one angle 0 for an isotropic surface, whose tables have no such axis.
+    """
+
+    theta_i: FloatArray
+    theta_o: FloatArray
+    phi: FloatArray
+    phi_i: FloatArray
+
+
+def surface_of(spec: Spec) -> Surface:
+    """Return the surface of a spec: the default one where its roughness axis alone speaks of a surface."""
+    return spec.surface or Surface()
+
+
+def roughness_values(spec: Spec) -> FloatArray:
+    """Return the roughnesses sqrt(alpha_x alpha_y) of a spec, (R,): its axis, or else its surface's own.
+
+    There are none, R = 0, where the spec has neither; an albedo or a bsdf always has one.
+    """
+    if spec.table.roughness is not None:
+        return roughness_axis_values(spec.table.roughness)
+    own = surface_of(spec).roughness
+    return np.array([] if own is None else [own], np.float64)
+
+
+def bsdf_angles(spec: Spec) -> BsdfAngles:
+    """Return the angles of a bsdf, with the defaults for its surface where the spec leaves them out."""
+    table = spec.table
+    anisotropic = surface_of(spec).anisotropic
+    ends, count = (WHOLE_TURN, 37) if anisotropic else (HALF_TURN, 19)
+    return BsdfAngles(
+        theta_i=theta_values(table.theta_i, 16),
+        theta_o=theta_values(table.theta_o, 32),
+        phi=phi_values(table.phi, ends, count),
+        phi_i=phi_values(table.phi_i, QUARTER_TURN, 5) if anisotropic else np.zeros(1),
+    )
+
+
+def _check_roughness(spec: Spec) -> None:
+    """Require a roughness where the quantity has that axis, and alphas within bounds all along it."""
+    if spec.table.quantity == "fresnel":
+        return
+    roughness = roughness_values(spec)
+    if roughness.size == 0:
+        expected = f"a roughness, for the quantity {spec.table.quantity}"
+        remedy = "give [surface] alpha_x, or table.roughness"
+        raise refusal(expected, "nothing", remedy, field="table.roughness")
+    alphas = alphas_at(surface_of(spec), roughness)
+    if alphas.min() < MIN_ALPHA * (1 - _ROUNDING) or alphas.max() > MAX_ALPHA * (1 + _ROUNDING):
+        expected = f"a roughness whose alpha_x and alpha_y lie within {MIN_ALPHA:g} to {MAX_ALPHA:g}"
+        got = f"alphas from {alphas.min():.3g} to {alphas.max():.3g}"
+        remedy = f"alpha_x / alpha_y is {surface_of(spec).ratio:.4g} all along the axis: make it shorter"
+        raise refusal(expected, got, remedy, field="table.roughness")
+
+
+def _check_phi_i(spec: Spec) -> None:
+    if spec.table.phi_i is not None and not surface_of(spec).anisotropic:
+        expected = "no such axis: the surface is isotropic and looks the same from any azimuth"
+        raise refusal(expected, "one", "leave it out, or give alpha_y", field="table.phi_i")
 
 
 def canonical_json(spec: Spec) -> str:

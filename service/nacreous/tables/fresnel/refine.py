@@ -9,18 +9,18 @@ from numpy.typing import NDArray
 
 from nacreous.errors import SpecError
 from nacreous.tables.axes import MAX_POINTS
-from nacreous.tables.certificate import (
-    Cells,
+from nacreous.tables.cells import Cells
+from nacreous.tables.colour import Colouring
+from nacreous.tables.film import Grid
+from nacreous.tables.fresnel.certificate import (
     all_colour_cells,
     colour_cells,
     colour_differences,
     short_of_grazing,
 )
-from nacreous.tables.colour import Colouring
-from nacreous.tables.film import Grid
 from nacreous.tables.solver import FilmSolver
 
-__all__ = ["refined"]
+__all__ = ["fewest", "refined", "spaced", "unreachable"]
 
 FloatArray = NDArray[np.float64]
 
@@ -51,7 +51,7 @@ def refined(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float
             cells = colour_cells(_respaced(grid, angles, scales), colouring)
             return float(colour_differences(solver, *cells, colouring).max())
 
-        return _fewest(error, grid.cos_theta.size, delta_e)
+        return fewest(error, grid.cos_theta.size, delta_e)
 
     best: tuple[int, int] | None = None
     for scales in _scale_counts(solver, grid, colouring, delta_e):
@@ -60,7 +60,7 @@ def refined(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e: float
             break
         best = best if angles is None else (angles, scales)
     if best is None:
-        raise _unreachable(delta_e)
+        raise unreachable(delta_e)
     return _holding_everywhere(solver, grid, colouring, delta_e, *best)
 
 
@@ -82,7 +82,7 @@ def _holding_everywhere(
             scales = math.ceil(growth * scales)
             error = worst(angles, scales)
         if max(angles, scales) > MAX_POINTS:
-            raise _unreachable(delta_e)
+            raise unreachable(delta_e)
     return _respaced(grid, angles, scales)
 
 
@@ -90,21 +90,21 @@ def _scale_counts(solver: FilmSolver, grid: Grid, colouring: Colouring, delta_e:
     """Numbers of thickness scales worth trying: from those that hold at a few angles, upwards."""
     if grid.thickness_scale.size == 1:
         return (1,)
-    values = _spaced(grid.cos_theta, min(_PROBE_ANGLES, grid.cos_theta.size))
+    values = spaced(grid.cos_theta, min(_PROBE_ANGLES, grid.cos_theta.size))
     angles = short_of_grazing(Cells(values, values))
 
     def error(scales: int) -> float:
-        cells = Cells.along(_spaced(grid.thickness_scale, scales), _PROBED_CELLS)
+        cells = Cells.along(spaced(grid.thickness_scale, scales), _PROBED_CELLS)
         return float(colour_differences(solver, cells, angles, colouring).max())
 
-    alone = _fewest(error, grid.thickness_scale.size, _ALMOST * delta_e)
+    alone = fewest(error, grid.thickness_scale.size, _ALMOST * delta_e)
     if alone is None:
-        raise _unreachable(delta_e)
+        raise unreachable(delta_e)
     return tuple(count for growth in _GROWTHS if (count := round(alone * growth)) <= MAX_POINTS)
 
 
-def _fewest(error: Callable[[int], float], least: int, allowed: float) -> int | None:
-    """Smallest count from `least` on whose error is allowed: doubled until it is, then halved in; or None."""
+def fewest(error: Callable[[int], float], least: int, allowed: float) -> int | None:
+    """Return the smallest count from `least` on whose error is allowed: doubled, then halved in; or None."""
     if error(least) <= allowed:
         return least
     low, high = least, 2 * least
@@ -118,18 +118,19 @@ def _fewest(error: Callable[[int], float], least: int, allowed: float) -> int | 
     return high
 
 
-def _spaced(axis: FloatArray, count: int) -> FloatArray:
-    """`count` values from the axis's first to its last, spaced as its own are."""
+def spaced(axis: FloatArray, count: int) -> FloatArray:
+    """Return `count` values from the axis's first to its last, spaced as its own are."""
     return np.interp(np.linspace(0, axis.size - 1, count), np.arange(axis.size), axis)
 
 
 def _respaced(grid: Grid, angles: int, scales: int) -> Grid:
     return replace(
-        grid, cos_theta=_spaced(grid.cos_theta, angles), thickness_scale=_spaced(grid.thickness_scale, scales)
+        grid, cos_theta=spaced(grid.cos_theta, angles), thickness_scale=spaced(grid.thickness_scale, scales)
     )
 
 
-def _unreachable(allowed: float) -> SpecError:
+def unreachable(allowed: float) -> SpecError:
+    """Return the refusal of a difference that no grid can keep."""
     return SpecError(
         "accuracy.delta_e",
         f"a difference that {MAX_POINTS:,} points an axis can keep",

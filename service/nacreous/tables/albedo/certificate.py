@@ -1,0 +1,192 @@
+"""What an albedo table's numbers are worth: its errors, measured between the texels.
+
+As for the film: linear interpolation in the middle of cells against the albedo itself, in double precision,
+with twice the nodes and twice the facets each way. Cells are spread over the table; their number is stated.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.optics.colour import lab
+from nacreous.optics.delta_e import delta_e_2000
+from nacreous.tables.albedo.solver import AlbedoGeometry, AlbedoSolver
+from nacreous.tables.cells import Cells, middle_of
+from nacreous.tables.colour import Colouring
+from nacreous.tables.figures import Figures
+from nacreous.tables.film import Grid
+
+__all__ = ["AlbedoCells", "AlbedoCertificate", "certify", "colour_differences"]
+
+FloatArray = NDArray[np.float64]
+
+_ROUGHNESS_CELLS, _SCALE_CELLS, _ANGLE_CELLS, _WAVELENGTH_CELLS = 6, 4, 24, 32
+_GAMUT_ROUNDING = 1e-5
+
+
+@dataclass(frozen=True)
+class AlbedoCertificate(Figures):
+    """Measured errors of a table of E_r and E_t.
+
+    Parameters
+    ----------
+    held_out_points : int
+        Points between the texels that E_r and E_t were compared at.
+    albedo_error_max, albedo_error_p99 : float
+        Largest difference, and the 99th percentile, of interpolated and exact E_r and E_t.
+    texel_error_max : float
+        The same without interpolation: what the facets, the nodes and the precision cost.
+    film_error : float
+        Largest error of R and T between the nodes that facets take them from.
+    energy_max : float
+        Largest E_r + E_t.
+    nonfinite : int
+        Values that are not finite.
+    colour_cells : int
+        Cells between the texels that colours were compared at.
+    delta_e_max, delta_e_p99 : float or None
+        CIEDE2000 of interpolated and exact colour; None where the wavelengths span no colour.
+    out_of_gamut : float or None
+        Share of colours with a component below 0 or above 1.
+    quadrature_error : float or None
+        Largest change of the film's linear colour on halving the steps that it is integrated with.
+    """
+
+    held_out_points: int
+    albedo_error_max: float
+    albedo_error_p99: float
+    texel_error_max: float
+    film_error: float
+    energy_max: float
+    nonfinite: int
+    colour_cells: int
+    delta_e_max: float | None
+    delta_e_p99: float | None
+    out_of_gamut: float | None
+    quadrature_error: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class AlbedoCells:
+    """Cells over roughness, thickness scale and angle."""
+
+    roughness: Cells
+    thickness_scale: Cells
+    cos_theta: Cells
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return self.roughness.lower.size * self.thickness_scale.lower.size * self.cos_theta.lower.size
+
+
+def certify(
+    solver: AlbedoSolver, roughness: FloatArray, grid: Grid, colouring: Colouring | None
+) -> AlbedoCertificate:
+    """Measure a table's errors on cells that are spread over it."""
+    cells = AlbedoCells(
+        Cells.along(roughness, _ROUGHNESS_CELLS),
+        Cells.along(grid.thickness_scale, _SCALE_CELLS),
+        Cells.along(grid.cos_theta, _ANGLE_CELLS),
+    )
+    waves = Cells.along(grid.wavelength_nm, _WAVELENGTH_CELLS)
+    corners, middles = _Samples.at_corners(solver, cells, waves), _Samples.at_middles(solver, cells, waves)
+    exact = _Samples.at_middles(solver.exact(), cells, waves)
+    texels, truth = corners.spectra(waves.corners), exact.spectra(waves.middles)  # (2, R, S, A, L)
+    error = np.abs(middle_of(texels, 4) - truth)
+    colour = _NO_COLOUR if colouring is None else _colour_figures(corners, exact, colouring)
+    return AlbedoCertificate(
+        held_out_points=error[0].size,
+        albedo_error_max=float(error.max()),
+        albedo_error_p99=float(np.quantile(error, 0.99)),
+        texel_error_max=float(np.abs(middles.spectra(waves.middles) - truth).max()),
+        film_error=solver.film.error,
+        energy_max=float(texels.sum(axis=0).max()),
+        nonfinite=int(np.count_nonzero(~np.isfinite(texels))),
+        colour_cells=0 if colouring is None else cells.count,
+        **colour,
+    )
+
+
+def colour_differences(
+    solver: AlbedoSolver, exact: AlbedoSolver, cells: AlbedoCells, grid: Grid, colouring: Colouring
+) -> FloatArray:
+    """CIEDE2000 amid cells, of colours that `solver` gives at their corners and `exact` there: (sides, …)."""
+    waves = Cells(grid.wavelength_nm, grid.wavelength_nm)
+    corners, middles = _Samples.at_corners(solver, cells, waves), _Samples.at_middles(exact, cells, waves)
+    return _differences(corners.colours(colouring), middles.colours(colouring), colouring)
+
+
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """The albedo at every combination of some roughnesses, scales and angles."""
+
+    solver: AlbedoSolver
+    geometry: AlbedoGeometry
+    mirror_mean: FloatArray
+    thickness_scale: FloatArray
+
+    @classmethod
+    def at_corners(cls, solver: AlbedoSolver, cells: AlbedoCells, waves: Cells) -> "_Samples":
+        axes = cells.roughness.corners, cells.thickness_scale.corners, cells.cos_theta.corners
+        return cls._of(solver, *axes, waves)
+
+    @classmethod
+    def at_middles(cls, solver: AlbedoSolver, cells: AlbedoCells, waves: Cells) -> "_Samples":
+        axes = cells.roughness.middles, cells.thickness_scale.middles, cells.cos_theta.middles
+        return cls._of(solver, *axes, waves)
+
+    @classmethod
+    def _of(
+        cls,
+        solver: AlbedoSolver,
+        roughness: FloatArray,
+        thickness_scale: FloatArray,
+        cos_theta: FloatArray,
+        waves: Cells,
+    ) -> "_Samples":
+        span = np.unique(waves.corners)
+        geometry = solver.geometry(roughness, cos_theta, span)
+        return cls(solver, geometry, solver.mirror_mean(roughness), thickness_scale)
+
+    def spectra(self, wavelength_nm: FloatArray) -> FloatArray:
+        """E_r and E_t, (2, R, S, A, L)."""
+        sides = self.solver.spectra(self.geometry, self.mirror_mean, self.thickness_scale, wavelength_nm)
+        return np.stack(list(sides.values()))
+
+    def colours(self, colouring: Colouring) -> FloatArray:
+        """Linear colours, (sides, R, S, A, 3)."""
+        return np.stack(
+            [
+                self.solver.colours(self.geometry, self.mirror_mean, self.thickness_scale, colouring, side)
+                for side in self.solver.sides
+            ]
+        )
+
+
+_NO_COLOUR: dict[str, Any] = {
+    "delta_e_max": None,
+    "delta_e_p99": None,
+    "out_of_gamut": None,
+    "quadrature_error": None,
+}
+
+
+def _colour_figures(corners: _Samples, exact: _Samples, colouring: Colouring) -> dict[str, Any]:
+    texels = corners.colours(colouring)
+    differences = _differences(texels, exact.colours(colouring), colouring)
+    outside = (texels < -_GAMUT_ROUNDING) | (texels > 1 + _GAMUT_ROUNDING)
+    return {
+        "delta_e_max": float(differences.max()),
+        "delta_e_p99": float(np.quantile(differences, 0.99)),
+        "out_of_gamut": float(outside.any(axis=-1).mean()),
+        "quadrature_error": colouring.error,
+    }
+
+
+def _differences(corners: FloatArray, middles: FloatArray, colouring: Colouring) -> FloatArray:
+    system = colouring.system
+    between, exact = (lab(system.to_xyz(colour), system.white) for colour in (middle_of(corners, 3), middles))
+    return delta_e_2000(between, exact)

@@ -1,0 +1,130 @@
+"""Albedo grids that keep a promise: few texels that hold ``[accuracy] delta_e``.
+
+Each axis is refined by itself for a share of the allowed difference, and several shares are tried. The smallest
+of the tables is widened until the difference holds in every cell, and slimmed, axis by axis, while it does.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.tables.albedo.certificate import AlbedoCells, colour_differences
+from nacreous.tables.albedo.solver import AlbedoSolver
+from nacreous.tables.axes import MAX_POINTS
+from nacreous.tables.cells import Cells
+from nacreous.tables.colour import Colouring
+from nacreous.tables.film import Grid
+from nacreous.tables.fresnel.refine import fewest, spaced, unreachable
+from nacreous.tables.solver import probe
+
+__all__ = ["refined"]
+
+FloatArray = NDArray[np.float64]
+Axes = tuple[FloatArray, FloatArray, FloatArray]
+"""Roughness (R,), thickness scale (S,) and cosine (A,)."""
+
+_SHARES: dict[int, tuple[tuple[float, ...], ...]] = {
+    1: ((0.97,),),
+    2: ((0.3, 0.65), (0.475, 0.475), (0.65, 0.3)),
+    3: ((0.3, 0.3, 0.3), (0.15, 0.6, 0.2), (0.2, 0.2, 0.55)),
+}
+"""Parts of the allowed difference that each refined axis may use up, by how many axes there are."""
+_PROBES = 3
+"""Values of the other axes at which one is refined by itself."""
+_GROWTH = 1.1
+
+
+def refined(
+    solver: AlbedoSolver, roughness: FloatArray, grid: Grid, colouring: Colouring, delta_e: float
+) -> tuple[FloatArray, Grid]:
+    """Return roughnesses and a grid with as many samples as `delta_e` needs, the spec's own at least.
+
+    An axis of one value stays as it is; a refined one is spaced as the spec's is.
+
+    Raises
+    ------
+    SpecError
+        No grid of at most 65,536 points an axis is fine enough.
+    """
+    axes: Axes = (roughness, grid.thickness_scale, grid.cos_theta)
+    search = _Search(solver, colouring, grid)
+    open_axes = [at for at, values in enumerate(axes) if values.size > 1]
+    tables = [
+        search.alone(axes, dict(zip(open_axes, shares, strict=True)), delta_e)
+        for shares in _SHARES[len(open_axes)]
+    ]
+    holding = search.holding(min(tables, key=_texels), open_axes, delta_e)
+    chosen = search.slimmed(holding, axes, open_axes, delta_e)
+    return chosen[0], replace(grid, thickness_scale=chosen[1], cos_theta=chosen[2])
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    solver: AlbedoSolver
+    colouring: Colouring
+    grid: Grid
+
+    def alone(self, axes: Axes, shares: dict[int, float], delta_e: float) -> Axes:
+        """Refine each axis of `shares` by itself, for its share of the difference."""
+        counts = [values.size for values in axes]
+        for at, share in shares.items():
+            counts[at] = self._fewest(axes, at, share * delta_e)
+        return _respaced(axes, counts)
+
+    def holding(self, axes: Axes, open_axes: list[int], delta_e: float) -> Axes:
+        """Widen a table until it holds in all of its cells, each time along the axis that helps most."""
+        while self.worst(axes) > delta_e:
+            wider = [_counted(axes, at, math.ceil(_GROWTH * axes[at].size)) for at in open_axes]
+            axes = min(wider, key=self.worst)
+            if max(values.size for values in axes) > MAX_POINTS:
+                raise unreachable(delta_e)
+        return axes
+
+    def slimmed(self, holding: Axes, least: Axes, open_axes: list[int], delta_e: float) -> Axes:
+        """Take samples off each axis in turn, by halving, while all cells hold; at least those of `least`."""
+        for at in open_axes:
+            low, high = least[at].size - 1, holding[at].size
+            while high - low > max(1, low // 32):
+                middle = (low + high) // 2
+                slimmer = _counted(holding, at, middle)
+                low, high = (low, middle) if self.worst(slimmer) <= delta_e else (middle, high)
+            holding = _counted(holding, at, high)
+        return holding
+
+    def worst(self, axes: Axes) -> float:
+        """Largest difference in all cells of a table, against the albedo in double precision."""
+        return self._difference(tuple(Cells.along(values, values.size) for values in axes))
+
+    def _fewest(self, axes: Axes, at: int, allowed: float) -> int:
+        def error(count: int) -> float:
+            few = [Cells(values, values) for values in (probe(axis, _PROBES) for axis in axes)]
+            values = spaced(axes[at], count)
+            few[at] = Cells.along(values, values.size)
+            return self._difference(tuple(few))
+
+        count = fewest(error, axes[at].size, allowed)
+        if count is None:
+            raise unreachable(allowed)
+        return count
+
+    def _difference(self, cells: tuple[Cells, ...]) -> float:
+        exact = self.solver.exact()
+        chosen = AlbedoCells(*cells)
+        return float(colour_differences(self.solver, exact, chosen, self.grid, self.colouring).max())
+
+
+def _respaced(axes: Axes, counts: list[int]) -> Axes:
+    roughness, scale, cosine = (spaced(axis, count) for axis, count in zip(axes, counts, strict=True))
+    return roughness, scale, cosine
+
+
+def _counted(axes: Axes, at: int, count: int) -> Axes:
+    counts = [values.size for values in axes]
+    counts[at] = count
+    return _respaced(axes, counts)
+
+
+def _texels(axes: Axes) -> int:
+    return math.prod(values.size for values in axes)

@@ -1,0 +1,189 @@
+"""What a BSDF table's numbers are worth: its errors, measured between the samples.
+
+A lobe that is narrower than the grid cannot be interpolated, and the certificate says so: it compares
+f cos_o, the light that goes to a direction, in the middle of cells over every axis.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.opencl.film_colour import Side
+from nacreous.optics.colour import lab
+from nacreous.optics.delta_e import delta_e_2000
+from nacreous.tables.bsdf.directions import DirectionGrid
+from nacreous.tables.bsdf.solver import BsdfSolver, Pairs
+from nacreous.tables.cells import Cells, middle_of
+from nacreous.tables.colour import Colouring
+from nacreous.tables.figures import Figures
+
+__all__ = ["BsdfCertificate", "certify"]
+
+FloatArray = NDArray[np.float64]
+
+_CELLS = {"roughness": 3, "phi_i": 2, "theta_i": 8, "theta_o": 16, "phi": 8, "wavelength": 8}
+_GAMUT_ROUNDING = 1e-5
+_DARK = 1e-3
+"""Part of the largest value below which a relative difference says nothing."""
+
+
+@dataclass(frozen=True)
+class BsdfCertificate(Figures):
+    """Measured errors of a table of f_r and f_t.
+
+    Parameters
+    ----------
+    held_out_points : int
+        Points between the samples that f_r and f_t were compared at.
+    bsdf_error_max, bsdf_error_p99 : float
+        Largest difference, and the 99th percentile, of interpolated and exact f cos_o, in 1 / sr.
+    bsdf_max : float
+        Largest f cos_o at those points, in 1 / sr, which the errors are to be seen beside.
+    sample_error_max : float
+        Largest relative difference of a sample, what the precision and the nodes cost, where f cos_o is above
+        a thousandth of `bsdf_max`.
+    film_error : float
+        Largest error of R and T between the nodes that facets take them from.
+    reciprocity_error_max : float
+        Largest relative difference of f_r and f_r with its directions exchanged.
+    energy_max : float
+        Largest albedo E_r + E_t at the table's roughnesses.
+    nonfinite : int
+        Values that are not finite.
+    delta_e_max, delta_e_p99 : float or None
+        CIEDE2000 of interpolated and exact colour of pi f cos_o, that of a white diffuse surface at most 1;
+        None where the wavelengths span no colour.
+    out_of_gamut : float or None
+        Share of colours with a component below 0.
+    quadrature_error : float or None
+        Largest change of the film's linear colour on halving the steps that it is integrated with.
+    """
+
+    held_out_points: int
+    bsdf_error_max: float
+    bsdf_error_p99: float
+    bsdf_max: float
+    sample_error_max: float
+    film_error: float
+    reciprocity_error_max: float
+    energy_max: float
+    nonfinite: int
+    delta_e_max: float | None
+    delta_e_p99: float | None
+    out_of_gamut: float | None
+    quadrature_error: float | None
+
+
+def certify(
+    solver: BsdfSolver,
+    grid: DirectionGrid,
+    wavelength_nm: FloatArray,
+    colouring: Colouring | None,
+    energy_max: float,
+) -> BsdfCertificate:
+    """Measure a table's errors on cells that are spread over it; at its roughnesses, which are not varied."""
+    waves = Cells.along(wavelength_nm, _CELLS["wavelength"])
+    cells = _DirectionCells.of(grid)
+    sides = solver.sides(wavelength_nm)
+    compared = [_compared(solver, cells, side, waves) for side in sides]
+    errors, exact, relative = (np.concatenate([c[k] for c in compared]) for k in range(3))
+    largest = float(exact.max())
+    seen = exact > _DARK * largest
+    return BsdfCertificate(
+        held_out_points=int(exact.size),
+        bsdf_error_max=float(errors.max()),
+        bsdf_error_p99=float(np.quantile(errors, 0.99)),
+        bsdf_max=largest,
+        sample_error_max=float(relative[seen].max()) if seen.any() else 0.0,
+        film_error=solver.albedo.film.error,
+        reciprocity_error_max=_reciprocity_error(solver, cells, waves),
+        energy_max=energy_max,
+        nonfinite=int(np.count_nonzero(~np.isfinite(errors))),
+        **(_NO_COLOUR if colouring is None else _colour_figures(solver, cells, sides, colouring)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _DirectionCells:
+    """Cells over phi_i, theta_i, theta_o and phi, at some roughnesses."""
+
+    roughness: NDArray[np.int32]
+    angles: tuple[Cells, Cells, Cells, Cells]
+
+    @classmethod
+    def of(cls, grid: DirectionGrid) -> "_DirectionCells":
+        axes = {"phi_i": grid.phi_i, "theta_i": grid.theta_i, "theta_o": grid.theta_o, "phi": grid.phi}
+        some = np.unique(np.linspace(0, grid.roughness.size - 1, _CELLS["roughness"]).round().astype(int))
+        phi_i, theta_i, theta_o, phi = (Cells.along(axis, _CELLS[name]) for name, axis in axes.items())
+        return cls(grid.roughness[some], (phi_i, theta_i, theta_o, phi))
+
+    def corners(self) -> DirectionGrid:
+        return DirectionGrid(self.roughness, *(cells.corners for cells in self.angles))
+
+    def middles(self) -> DirectionGrid:
+        return DirectionGrid(self.roughness, *(cells.middles for cells in self.angles))
+
+
+def _compared(
+    solver: BsdfSolver, cells: _DirectionCells, side: Side, waves: Cells
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Error of interpolation, exact f cos_o, and relative error of samples, each flat."""
+    corners, middles = cells.corners(), cells.middles()
+    samples = solver.spectra(corners.pairs(side), side, waves.corners).reshape(*corners.shape, -1)
+    between = middle_of(np.asarray(samples, np.float64), 5)
+    pairs = middles.pairs(side)
+    cos_o = np.abs(pairs.outgoing[:, 2:])
+    exact = solver.exact().spectra(pairs, side, waves.middles)
+    alike = solver.spectra(pairs, side, waves.middles)
+    error = np.abs(between.reshape(exact.shape) - exact) * cos_o
+    relative = np.abs(alike - exact) / np.maximum(exact, 1e-30)
+    flat = (np.asarray(values, np.float64).ravel() for values in (error, exact * cos_o, relative))
+    return next(flat), next(flat), next(flat)
+
+
+def _reciprocity_error(solver: BsdfSolver, cells: _DirectionCells, waves: Cells) -> float:
+    pairs = cells.middles().pairs(Side.REFLECTION)
+    swapped = replace(pairs, incoming=pairs.outgoing, outgoing=pairs.incoming)
+    there, back = (solver.spectra(p, Side.REFLECTION, waves.middles) for p in (pairs, swapped))
+    return float((np.abs(there - back) / np.maximum(np.maximum(there, back), 1e-30)).max())
+
+
+_NO_COLOUR: dict[str, Any] = {
+    "delta_e_max": None,
+    "delta_e_p99": None,
+    "out_of_gamut": None,
+    "quadrature_error": None,
+}
+
+
+def _colour_figures(
+    solver: BsdfSolver, cells: _DirectionCells, sides: tuple[Side, ...], colouring: Colouring
+) -> dict[str, Any]:
+    corners, middles = cells.corners(), cells.middles()
+    differences, outside = [], []
+    for side in sides:
+        samples = solver.colours(corners.pairs(side), side, colouring)
+        between = middle_of(np.asarray(samples, np.float64).reshape(*corners.shape, 3), 4)
+        pairs: Pairs = middles.pairs(side)
+        exact = solver.exact().colours(pairs, side, colouring)
+        shown = (_shown(np.reshape(colour, (-1, 3)), pairs) for colour in (between, exact))
+        between_lab, exact_lab = (
+            lab(colouring.system.to_xyz(colour), colouring.system.white) for colour in shown
+        )
+        differences.append(delta_e_2000(between_lab, exact_lab))
+        outside.append((samples < -_GAMUT_ROUNDING).any(axis=-1))
+    all_differences = np.concatenate(differences)
+    return {
+        "delta_e_max": float(all_differences.max()),
+        "delta_e_p99": float(np.quantile(all_differences, 0.99)),
+        "out_of_gamut": float(np.concatenate(outside).mean()),
+        "quadrature_error": colouring.error,
+    }
+
+
+def _shown(colour: NDArray[np.floating], pairs: Pairs) -> FloatArray:
+    """Colour of pi f cos_o, no brighter than white: a glint is white, whatever it is interpolated to."""
+    bright = np.pi * colour * np.abs(pairs.outgoing[:, 2:])
+    return np.asarray(bright / np.maximum(bright.max(axis=-1, keepdims=True), 1))

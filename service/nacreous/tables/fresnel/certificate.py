@@ -1,0 +1,225 @@
+"""What a table's numbers are worth: its errors, measured between the texels.
+
+A reader of the table interpolates it linearly. The certificate does the same at the middle of cells, where
+linear interpolation is at its worst, and compares with the film itself in double precision there. All cells
+of a small table are measured, of a large one some that are spread over all of it: their number is stated. The
+texels at their corners are computed as the table's own are.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.opencl.film_colour import Side
+from nacreous.optics.colour import ColourSystem, lab
+from nacreous.optics.delta_e import delta_e_2000
+from nacreous.tables.cells import Cells, middle_of
+from nacreous.tables.colour import Colouring
+from nacreous.tables.figures import Figures
+from nacreous.tables.film import Grid
+from nacreous.tables.solver import FilmSolver
+
+__all__ = [
+    "FresnelCertificate",
+    "all_colour_cells",
+    "certify",
+    "colour_cells",
+    "colour_differences",
+    "short_of_grazing",
+]
+
+FloatArray = NDArray[np.float64]
+
+GRAZING = 0.02
+"""Cosine below which colour differences are stated apart: within 1.2 degrees of grazing, where a diffuse
+surface sends 4e-4 of its light, a film between equal media has resonances as narrow as one likes."""
+_ALL_SPECTRAL_CELLS, _SPREAD_SPECTRAL_CELLS = 250_000, (8, 64, 32)
+"""So many cells are all compared; of more, so many over thickness scale, angle and wavelength."""
+_ALL_COLOUR_NUMBERS, _SPREAD_COLOUR_CELLS = 8_000_000, (32, 128)
+"""Cells whose exact colours take so many spectral values are all compared; else so many over either axis."""
+_MOST_GRAZING_CELLS = 8
+_MOST_NUMBERS = 4_000_000
+"""Spectral values held at a time while exact colours are integrated."""
+_GAMUT_ROUNDING = 1e-5
+
+
+@dataclass(frozen=True)
+class FresnelCertificate(Figures):
+    """Measured errors of a table of R and T.
+
+    Parameters
+    ----------
+    held_out_points : int
+        Points between the texels that R and T were compared at.
+    intensity_error_max, intensity_error_p99 : float
+        Largest difference, and the 99th percentile, of interpolated and exact R_s, R_p, T_s and T_p.
+    rounding_error_max : float
+        The same at the texels: what the precision costs.
+    energy_max : float
+        Largest R + T of either polarisation; 1 without absorption.
+    nonfinite : int
+        Values that are not finite; a table with any is refused before it gets a certificate.
+    colour_cells : int
+        Cells between the texels that colours were compared at, short of grazing.
+    delta_e_max, delta_e_p99 : float or None
+        CIEDE2000 of interpolated and exact colour, short of grazing incidence (cosine 0.02); None where the
+        wavelengths span no colour.
+    delta_e_grazing : float or None
+        The largest difference in the cells from there to grazing; None where there are none.
+    out_of_gamut : float or None
+        Share of texels with a component below 0 or above 1.
+    quadrature_error : float or None
+        Largest change of a linear colour on halving the steps that it is integrated with.
+    """
+
+    held_out_points: int
+    intensity_error_max: float
+    intensity_error_p99: float
+    rounding_error_max: float
+    energy_max: float
+    nonfinite: int
+    colour_cells: int
+    delta_e_max: float | None
+    delta_e_p99: float | None
+    delta_e_grazing: float | None
+    out_of_gamut: float | None
+    quadrature_error: float | None
+
+
+def certify(solver: FilmSolver, grid: Grid, colouring: Colouring | None) -> FresnelCertificate:
+    """Measure a table's errors on its cells."""
+    scales, angles, waves = _spectral_cells(grid)
+    corners = Grid(scales.corners, angles.corners, waves.corners)
+    middles = Grid(scales.middles, angles.middles, waves.middles)
+    texels = _stacked(solver.intensities(corners))  # (4, 2 S, 2 A, 2 L)
+    rounding = np.abs(texels - _stacked(solver.exact_intensities(corners)))
+    error = np.abs(middle_of(texels, 3) - _stacked(solver.exact_intensities(middles)))
+    colour = _NO_COLOUR if colouring is None else _colour_figures(solver, grid, colouring)
+    return FresnelCertificate(
+        held_out_points=error[0].size,
+        intensity_error_max=float(error.max()),
+        intensity_error_p99=float(np.quantile(error, 0.99)),
+        rounding_error_max=float(rounding.max()),
+        energy_max=float((texels[:2] + texels[2:]).max()),
+        nonfinite=int(np.count_nonzero(~np.isfinite(texels))),
+        **colour,
+    )
+
+
+def _spectral_cells(grid: Grid) -> tuple[Cells, Cells, Cells]:
+    axes = (grid.thickness_scale, grid.cos_theta, grid.wavelength_nm)
+    few = math.prod(axis.size for axis in axes) <= _ALL_SPECTRAL_CELLS
+    most = tuple(axis.size for axis in axes) if few else _SPREAD_SPECTRAL_CELLS
+    scales, angles, waves = (Cells.along(axis, count) for axis, count in zip(axes, most, strict=True))
+    return scales, angles, waves
+
+
+def colour_cells(grid: Grid, colouring: Colouring) -> tuple[Cells, Cells]:
+    """Choose the cells over thickness scale and angle at which a colour table is measured."""
+    texels = grid.thickness_scale.size * grid.cos_theta.size
+    if texels * colouring.quadrature_nm.size <= _ALL_COLOUR_NUMBERS:
+        return all_colour_cells(grid)
+    scales = Cells.along(grid.thickness_scale, _SPREAD_COLOUR_CELLS[0])
+    return scales, short_of_grazing(Cells.along(grid.cos_theta, _SPREAD_COLOUR_CELLS[1]))
+
+
+def all_colour_cells(grid: Grid) -> tuple[Cells, Cells]:
+    """Return every cell over thickness scale and angle, short of grazing."""
+    scales = Cells.along(grid.thickness_scale, grid.thickness_scale.size)
+    return scales, short_of_grazing(Cells.along(grid.cos_theta, grid.cos_theta.size))
+
+
+def short_of_grazing(angles: Cells) -> Cells:
+    """Return the cells whose middle lies above `GRAZING`; all of them where none does."""
+    above = angles.middles >= GRAZING
+    return angles.where(above) if above.any() else angles
+
+
+def colour_differences(solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring) -> FloatArray:
+    """CIEDE2000 of interpolated and exact colour amid cells, of R and any T: (sides, S, A)."""
+    return _differences(solver, scales, angles, colouring)[0]
+
+
+def _differences(
+    solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring
+) -> tuple[FloatArray, FloatArray]:
+    texels = _texels(solver, scales, angles, colouring)
+    exact = _exact_colours(solver, scales.middles, angles.middles, colouring)
+    between = middle_of(texels, 2)
+    return delta_e_2000(_lab(between, colouring.system), _lab(exact, colouring.system)), texels
+
+
+_NO_COLOUR: dict[str, Any] = {
+    "colour_cells": 0,
+    "delta_e_max": None,
+    "delta_e_p99": None,
+    "delta_e_grazing": None,
+    "out_of_gamut": None,
+    "quadrature_error": None,
+}
+
+
+def _colour_figures(solver: FilmSolver, grid: Grid, colouring: Colouring) -> dict[str, Any]:
+    scales, angles = colour_cells(grid, colouring)
+    differences, texels = _differences(solver, scales, angles, colouring)
+    outside = (texels < -_GAMUT_ROUNDING) | (texels > 1 + _GAMUT_ROUNDING)
+    return {
+        "colour_cells": scales.lower.size * angles.lower.size,
+        "delta_e_max": float(differences.max()),
+        "delta_e_p99": float(np.quantile(differences, 0.99)),
+        "delta_e_grazing": _grazing_difference(solver, grid, colouring),
+        "out_of_gamut": float(outside.any(axis=-1).mean()),
+        "quadrature_error": colouring.error,
+    }
+
+
+def _grazing_difference(solver: FilmSolver, grid: Grid, colouring: Colouring) -> float | None:
+    angles = Cells.along(grid.cos_theta, grid.cos_theta.size)
+    grazing = angles.where(angles.middles < GRAZING)
+    if grazing.lower.size in (0, angles.lower.size):
+        return None
+    few = grazing.where(np.arange(grazing.lower.size) < _MOST_GRAZING_CELLS)
+    scales, _ = colour_cells(grid, colouring)
+    return float(colour_differences(solver, scales, few, colouring).max())
+
+
+def _stacked(intensities: dict[str, NDArray[np.floating]]) -> FloatArray:
+    return np.stack([np.asarray(values, np.float64) for values in intensities.values()])
+
+
+def _texels(solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring) -> FloatArray:
+    """Colours at the cells' corners, as the table has them: (sides, 2 S, 2 A, 3)."""
+    grid = Grid(scales.corners, angles.corners, colouring.quadrature_nm)
+    colours = [solver.colour(grid, colouring.weights, side) for side in solver.sides]
+    return np.stack([np.asarray(colour, np.float64) for colour in colours])
+
+
+def _exact_colours(
+    solver: FilmSolver, thickness_scale: FloatArray, cos_theta: FloatArray, colouring: Colouring
+) -> FloatArray:
+    """Colours integrated from spectra in double precision, some angles at a time: (sides, S, A, 3)."""
+    at_a_time = max(1, _MOST_NUMBERS // (thickness_scale.size * colouring.quadrature_nm.size))
+    blocks = np.split(cos_theta, range(at_a_time, cos_theta.size, at_a_time))
+    return np.concatenate(
+        [
+            _block_colours(solver, Grid(thickness_scale, mu, colouring.quadrature_nm), colouring)
+            for mu in blocks
+        ],
+        axis=2,
+    )
+
+
+def _block_colours(solver: FilmSolver, grid: Grid, colouring: Colouring) -> FloatArray:
+    exact = solver.exact_intensities(grid)
+    spectra = {
+        Side.REFLECTION: (exact["R_s"] + exact["R_p"]) / 2,
+        Side.TRANSMISSION: (exact["T_s"] + exact["T_p"]) / 2,
+    }
+    return np.stack([spectra[side] @ colouring.weights.T for side in solver.sides])
+
+
+def _lab(colour: FloatArray, system: ColourSystem) -> FloatArray:
+    return lab(system.to_xyz(colour), system.white)
