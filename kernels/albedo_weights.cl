@@ -13,6 +13,7 @@
 #include "nodes.clh"
 
 #define FACET_ROWS 4
+#define REAL4 JOIN(REAL_TYPE, 4)
 
 // A facet of the quadrature, the direction that it sends i into, and |o.h|; weight 0 where that does not exist.
 typedef struct {
@@ -67,12 +68,12 @@ INLINE lane path_share(microsurface m, direction i, facet_path path) {
 
 // Add each lane's share to the four nodes about its cosine at the facet.
 INLINE void add_to_nodes(lane share, lane cosine, global real *row, int nodes) {
-    real shares[LANES], cosines[LANES];
-    ((lane *)shares)[0] = share;
-    ((lane *)cosines)[0] = lane_min(lane_max(cosine, (lane)(0)), (lane)(1));
+    node_weights n = node_weights_at(lane_min(lane_max(cosine, (lane)(0)), (lane)(1)), nodes);
+    real shares[4][LANES];
+    for (int j = 0; j < 4; ++j) ((lane *)shares[j])[0] = share * n.weights[j];
     for (int k = 0; k < LANES; ++k) {
-        node_weights n = node_weights_at(cosines[k], nodes);
-        vstore4(vload4(0, row + n.first) + shares[k] * n.weights, 0, row + n.first);
+        REAL4 four = (REAL4)(shares[0][k], shares[1][k], shares[2][k], shares[3][k]);
+        vstore4(vload4(0, row + n.first[k]) + four, 0, row + n.first[k]);
     }
 }
 

@@ -1,7 +1,7 @@
 """Albedo grids that keep a promise: few texels that hold ``[accuracy] delta_e``.
 
-Each axis is refined by itself for a share of the allowed difference, and several shares are tried. The smallest
-of the tables is widened until the difference holds in every cell, and slimmed, axis by axis, while it does.
+Each axis is refined by itself for a share of the allowed difference, and several shares are tried. The
+smallest of the tables is widened until the difference holds in every cell, and slimmed while it does.
 """
 
 import math
