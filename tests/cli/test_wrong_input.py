@@ -27,6 +27,12 @@ def table(fields: str) -> str:
     return film(rest=f', "table": {{{fields}}}')
 
 
+def surface(fields: str, quantity: str = "albedo", rest: str = "") -> str:
+    """Return a spec whose surface is as given."""
+    table = f'"table": {{"quantity": "{quantity}"{rest}}}'
+    return film(rest=f', "surface": {{{fields}}}, {table}')
+
+
 DOCUMENTS = {
     "not a number": (layer("NaN"), 'NaN, not a finite number, at the key "thickness_nm"'),
     "infinite": (layer("-Infinity"), '-Infinity, not a finite number, at the key "thickness_nm"'),
@@ -83,11 +89,36 @@ PHYSICS = {
     "an unknown illuminant": (film(rest=', "colour": {"illuminant": "D64"}'), "colour.illuminant"),
     "an unknown space": (film(rest=', "colour": {"space": "sRGB"}'), "colour.space"),
 }  # fmt: skip
+SURFACES = {
+    "alpha 0": (surface('"alpha_x": 0'), "surface.alpha_x"),
+    "a negative alpha": (surface('"alpha_x": -0.1'), "surface.alpha_x"),
+    "alpha above 1": (surface('"alpha_x": 0.1, "alpha_y": 2'), "surface.alpha_y"),
+    "a negative exponent": (surface('"exponent_x": -1'), "surface.exponent_x"),
+    "alpha and exponent": (surface('"alpha_x": 0.1, "exponent_x": 198'), "either alpha or exponent"),
+    "y without x": (surface('"exponent_y": 10'), "surface.exponent_x"),
+    "anisotropic Blinn": (surface('"distribution": "blinn", "alpha_x": 0.1, "alpha_y": 0.2'), "alpha_y"),
+    "Phong behind Smith": (surface('"distribution": "phong", "masking": "smith"'), "surface.masking"),
+    "a negative weight": (surface('"alpha_x": 0.1, "specular_weight": -1'), "surface.specular_weight"),
+    "an unknown distribution": (surface('"distribution": "ward"'), "surface.distribution"),
+    "no roughness": (surface('"masking": "smith"'), "give [surface] alpha_x, or table.roughness"),
+    "roughness of a smooth film": (table('"roughness": [0.1]'), "table.roughness"),
+    "roughness 0": (surface("", rest=', "roughness": [0, 1]'), "table.roughness"),
+    "roughness beyond the ratio": (
+        surface('"alpha_x": 0.1, "alpha_y": 0.4', rest=', "roughness": [0.1, 0.9]'),
+        "got alphas from 0.05 to 1.8",
+    ),
+    "angles of an albedo": (surface('"alpha_x": 0.1', rest=', "theta_o": 9'), "table.theta_o"),
+    "thicknesses of a bsdf": (
+        surface('"alpha_x": 0.1', "bsdf", ', "thickness_scale": [1, 2]'), "table.thickness_scale"
+    ),
+    "phi_i of an isotropic bsdf": (surface('"alpha_x": 0.1', "bsdf", ', "phi_i": 5'), "table.phi_i"),
+    "light from below": (surface('"alpha_x": 0.1', "bsdf", ', "theta_i": [0, 2]'), "table.theta_i"),
+    "psi of a rough surface": (surface('"alpha_x": 0.1', rest=', "ellipsometry": true'), "ellipsometry"),
+}  # fmt: skip
+CASES = DOCUMENTS | PHYSICS | SURFACES
 
 
-@pytest.mark.parametrize(
-    ("document", "named"), [*DOCUMENTS.values(), *PHYSICS.values()], ids=[*DOCUMENTS, *PHYSICS]
-)
+@pytest.mark.parametrize(("document", "named"), CASES.values(), ids=CASES)
 def test_is_refused_in_one_message(run: Run, tmp_path: Path, document: str, named: str) -> None:
     """Exit code 2; no traceback, nothing on stdout, and no file or folder is left behind."""
     (tmp_path / "film.json").write_text(document)

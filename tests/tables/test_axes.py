@@ -13,6 +13,9 @@ from nacreous.tables import axes
 WAVELENGTH: TypeAdapter[Any] = TypeAdapter(axes.WavelengthAxis)
 COS_THETA: TypeAdapter[Any] = TypeAdapter(axes.CosThetaAxis)
 SCALE: TypeAdapter[Any] = TypeAdapter(axes.ThicknessScaleAxis)
+ROUGHNESS: TypeAdapter[Any] = TypeAdapter(axes.RoughnessAxis)
+THETA: TypeAdapter[Any] = TypeAdapter(axes.PolarAngleAxis)
+PHI: TypeAdapter[Any] = TypeAdapter(axes.AzimuthAxis)
 
 
 def wavelengths(axis: object) -> list[float]:
@@ -103,6 +106,24 @@ def test_one_thickness_is_the_thickness_itself() -> None:
         (SCALE, True, "1, a list"),
         (SCALE, [0, 1], "1e-06 to 100"),
         (SCALE, [1, 100.1], "1e-06 to 100"),
+        (ROUGHNESS, [], "at least 1"),
+        (ROUGHNESS, [0], "0.001 to 1"),
+        (ROUGHNESS, [0.5, 1.01], "0.001 to 1"),
+        (ROUGHNESS, [0.2, 0.1], "ascending"),
+        (ROUGHNESS, [0.1, 0.1], "ascending"),
+        (ROUGHNESS, 0.1, "a list"),
+        (ROUGHNESS, 5, "a list"),
+        (ROUGHNESS, {"start": 0, "stop": 1, "count": 5}, "0.001 to 1"),
+        (THETA, 1, "greater than or equal to 2"),
+        (THETA, [0, 1.5708], "0 to 1.5707 rad"),
+        (THETA, [-0.1, 1], "0 to 1.5707 rad"),
+        (THETA, [], "at least 1"),
+        (THETA, 1.5, "a count"),
+        (THETA, True, "a count"),
+        (PHI, 1, "greater than or equal to 2"),
+        (PHI, [-3.15, 0], "-3.1416 to 3.1416 rad"),
+        (PHI, {"start": 0, "stop": 360, "step": 10}, "-3.1416 to 3.1416 rad"),
+        (PHI, "pi", "a count"),
     ],
     ids=str,
 )
@@ -122,11 +143,22 @@ def test_every_accepted_range_ascends(start: float, length: float, count: int) -
     assert (values[0], values[-1]) == (start, start + length)
 
 
-@pytest.mark.parametrize("axis", [64, [0.0, 0.5, 1.0], {"start": 0.1, "stop": 1, "step": 0.1}])
-def test_an_axis_survives_json(axis: object) -> None:
-    """Written out and read again it is the same axis."""
-    read = COS_THETA.validate_python(axis)
-    assert COS_THETA.validate_json(COS_THETA.dump_json(read)) == read
+RANGE = {"start": 0.1, "stop": 1, "step": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("adapter", "axis"),
+    [
+        *((COS_THETA, axis) for axis in (64, [0.0, 0.5, 1.0], RANGE)),
+        *((ROUGHNESS, axis) for axis in ([0.1], [0.1, 0.2], RANGE, None)),
+        *((adapter, axis) for adapter in (THETA, PHI) for axis in (9, [0.7], [0.0, 0.5, 1.0], RANGE, None)),
+    ],
+    ids=str,
+)
+def test_an_axis_survives_json(adapter: TypeAdapter[Any], axis: object) -> None:
+    """Written out and read again it is the same axis, or none."""
+    read = adapter.validate_python(axis)
+    assert adapter.validate_json(adapter.dump_json(read)) == read
 
 
 def test_one_thickness_may_be_written_as_a_real_number() -> None:
@@ -135,3 +167,37 @@ def test_one_thickness_may_be_written_as_a_real_number() -> None:
     for wrong in (1.5, 0, 2, True, "1"):
         with pytest.raises(ValidationError, match="expected 1, a list, "):
             SCALE.validate_python(wrong)
+
+
+def test_a_roughness_may_stand_alone() -> None:
+    """One alpha is a table of its own; several ascend."""
+    assert axes.roughness_axis_values(ROUGHNESS.validate_python([0.1])).tolist() == [0.1]
+    spaced = ROUGHNESS.validate_python({"start": 0.1, "stop": 1, "count": 4})
+    np.testing.assert_allclose(axes.roughness_axis_values(spaced), [0.1, 0.4, 0.7, 1.0], rtol=1e-12)
+
+
+def test_a_count_of_polar_angles_stops_short_of_the_horizon() -> None:
+    """From the normal to 89 degrees, where the cosine is 0.0175 and not yet nothing."""
+    values = axes.theta_values(THETA.validate_python(90), 16)
+    np.testing.assert_allclose(np.degrees(values), np.arange(90), atol=1e-12)
+    assert axes.theta_values(None, 16).size == 16
+
+
+def test_a_list_of_angles_is_in_radians() -> None:
+    """As they are written: one slice, or a grid of one's own."""
+    assert axes.theta_values(THETA.validate_python([0.7]), 16).tolist() == [0.7]
+    assert axes.phi_values(PHI.validate_python([-3.1416, 0, 3.1416]), axes.HALF_TURN, 9).size == 3
+
+
+@pytest.mark.parametrize(
+    ("ends", "degrees"),
+    [
+        (axes.QUARTER_TURN, [0, 22.5, 45, 67.5, 90]),
+        (axes.HALF_TURN, [0, 45, 90, 135, 180]),
+        (axes.WHOLE_TURN, [-180, -90, 0, 90, 180]),
+    ],
+)
+def test_a_count_of_azimuths_has_both_ends(ends: tuple[float, float], degrees: list[float]) -> None:
+    """Interpolation from end to end needs no wrapping around."""
+    for axis, default in ((5, 7), (None, 5)):
+        np.testing.assert_allclose(np.degrees(axes.phi_values(axis, ends, default)), degrees, atol=1e-12)

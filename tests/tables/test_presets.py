@@ -10,12 +10,12 @@ from nacreous.errors import SpecError
 from nacreous.optics.stack import sample_stack
 from nacreous.tables.axes import cos_theta_values, thickness_scale_values, wavelength_values_nm
 from nacreous.tables.presets import load, preset, preset_names
-from nacreous.tables.spec import Spec
+from nacreous.tables.spec import Spec, roughness_values, surface_of
 
 PROMISED = [
     "soap-bubble", "oil-on-water", "anodised-titanium", "tempered-steel", "coated-lens", "dichroic",
-    "silica-on-silicon", "beetle", "nacre", "morpho", "paper/figure-3", "paper/figure-4", "paper/figure-5",
-    "paper/figure-8",
+    "silica-on-silicon", "beetle", "nacre", "morpho", "morpho-ridges", "paper/figure-3", "paper/figure-4",
+    "paper/figure-5", "paper/figure-6", "paper/figure-7", "paper/figure-8", "paper/figure-9",
 ]  # fmt: skip
 
 
@@ -58,6 +58,8 @@ def test_a_preset_is_complete(name: str) -> None:
         ("dichroic", 1.0, 550),
         ("beetle", 1.0, 530),
         ("morpho", 1.0, 454),
+        ("morpho-ridges", 1.0, 400),
+        ("paper/figure-9", 1.0, 454),
     ],
 )
 def test_a_reflector_peaks_where_its_source_says(name: str, scale: float, peak_nm: float) -> None:
@@ -65,6 +67,53 @@ def test_a_reflector_peaks_where_its_source_says(name: str, scale: float, peak_n
     wavelength_nm = np.arange(380.0, 750.0, 1.0)
     found = wavelength_nm[reflectance(name, wavelength_nm, scale).argmax()]
     assert found == pytest.approx(peak_nm, abs=12)
+
+
+@pytest.mark.parametrize(
+    ("name", "distribution", "anisotropic"),
+    [
+        ("paper/figure-5", "blinn", False),
+        ("paper/figure-6", "ashikhmin-shirley", True),
+        ("paper/figure-7", "ashikhmin-shirley", True),
+        ("paper/figure-9", "phong", False),
+    ],
+)
+def test_a_rough_figure_has_the_surface_of_the_paper(
+    name: str, distribution: str, *, anisotropic: bool
+) -> None:
+    """Section 4: Blinn's isotropic exponent, Ashikhmin's anisotropic function, and Sun's Phong beside it."""
+    spec = preset(name)
+    assert spec.table.quantity == "albedo"
+    assert surface_of(spec).distribution == distribution
+    assert surface_of(spec).anisotropic == anisotropic
+    assert roughness_values(spec).size >= 1
+    assert "assumed" in spec.source
+
+
+@pytest.mark.parametrize("name", ["paper/figure-5", "paper/figure-6", "paper/figure-7"])
+def test_an_opaque_object_is_opaque_and_reflects_as_one_of_index_1_5(name: str) -> None:
+    """Light is lost within 10 µm (Born and Wolf, section 14.1: λ / 4πk), and the paper's 1.5 decides R."""
+    wavelength_nm = np.arange(350.0, 751.0, 10.0)
+    substrate = sample_stack(preset(name).stack, wavelength_nm).index[-1]
+    assert (wavelength_nm / (4 * np.pi * substrate.imag)).max() < 10e3
+    clear = [tmm.coh_tmm("s", [1, 2, 1.5], [np.inf, 400, np.inf], 0, nm)["R"] for nm in wavelength_nm]
+    np.testing.assert_allclose(reflectance(name, wavelength_nm), clear, atol=5e-3)
+
+
+def test_figure_5_holds_both_of_its_films() -> None:
+    """The paper's 400 and 600 nm are samples of the thickness axis."""
+    scales = thickness_scale_values(preset("paper/figure-5").table.thickness_scale)
+    assert {400.0, 600.0} <= set(400 * scales)
+
+
+def test_ridges_are_those_of_figure_2() -> None:
+    """300 nm wide, one every 675 nm, and of uneven thickness; the air between makes them a weaker mirror."""
+    group = preset("morpho-ridges").stack.layers[0]
+    ridge = group.layers[0]
+    assert ridge.material.fraction == pytest.approx(300 / 675, rel=1e-15)
+    assert ridge.thickness_sigma_nm > 0
+    wavelength_nm = np.arange(380.0, 750.0, 1.0)
+    assert reflectance("morpho-ridges", wavelength_nm).max() < reflectance("morpho", wavelength_nm).max()
 
 
 def test_figure_3_spans_the_quarter_and_half_wave_limits() -> None:

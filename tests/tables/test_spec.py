@@ -6,13 +6,22 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from nacreous.errors import SpecError
-from nacreous.tables.spec import Spec, canonical_json, json_schema
+from nacreous.optics.surface import Surface
+from nacreous.tables.spec import (
+    Spec,
+    bsdf_angles,
+    canonical_json,
+    json_schema,
+    roughness_values,
+    surface_of,
+)
 from nacreous.tables.spec_document import Syntax
 
 FILM = {"material": {"n": 2.0}, "thickness_nm": 420.0}
@@ -34,6 +43,14 @@ quantity = "fresnel"
 wavelength_nm = { start = 350, stop = 750, step = 5 }
 cos_theta = 64
 thickness_scale = 1
+[surface]
+distribution = "ashikhmin-shirley"
+exponent_x = 1000.0
+exponent_y = 10.0
+masking = "v-cavity"
+specular_weight = 1.0
+diffuse_weight = 0.0
+diffuse_reflectance = 0.0
 [colour]
 illuminant = "D65"
 observer = "CIE 1931 2 Degree Standard Observer"
@@ -63,9 +80,11 @@ def test_the_documented_example_is_a_spec(tmp_path: Path) -> None:
 
 
 def test_the_defaults_are_those_of_the_paper() -> None:
-    """350 to 750 nm by 5 nm, 64 angles, one thickness; D65 and Rec.709."""
+    """350 to 750 nm by 5 nm, 64 angles, one thickness; Ashikhmin-Shirley and v-cavity; D65 and Rec.709."""
     written = Spec.from_text(PRODUCT_EXAMPLE, overrides=["stack.layers=[{material={n=2},thickness_nm=420}]"])
-    assert spec(accuracy={"delta_e": 0.5}).model_copy(update={"name": written.name}) == written
+    rough = {"exponent_x": 1000, "exponent_y": 10}
+    ours = spec(accuracy={"delta_e": 0.5}, surface=rough)
+    assert ours.model_copy(update={"name": written.name}) == written
 
 
 def test_json_is_read_as_toml_is() -> None:
@@ -112,8 +131,20 @@ def test_the_canonical_form_is_itself_a_spec() -> None:
     [
         ("tabel.cos_theta=3", "tabel", "did you mean table?"),
         ("table.cos_teta=3", "table.cos_teta", "did you mean cos_theta?"),
-        ("surface.exponent_x=3", "surface", "unknown field"),
-        ("table.quantity=albedo", "table.quantity", "'fresnel'"),
+        ("surface.mask=smith", "surface.mask", "did you mean masking?"),
+        ("surface.distribution=lambert", "surface.distribution", "'ashikhmin-shirley'"),
+        ("surface.masking=none", "surface.masking", "'v-cavity'"),
+        ("surface.alpha_x=0", "surface.alpha_x", "a roughness from 0.001 to 1, got 0"),
+        ("surface.alpha_y=0.1", "surface.alpha_x", "alpha_x beside alpha_y, got nothing"),
+        ("surface=0.1", "surface", "a table, got 0.1"),
+        ("table.quantity=brdf", "table.quantity", "'fresnel', 'albedo' or 'bsdf'"),
+        ("table.quantity=albedo", "table.roughness", "a roughness, for the quantity albedo, got nothing"),
+        ("table.quantity=bsdf", "table.roughness", "give [surface] alpha_x, or table.roughness"),
+        ("table.roughness=[0.1]", "table.roughness", "the quantity is fresnel"),
+        ("table.theta_i=16", "table.theta_i", 'take quantity = "bsdf"'),
+        ("table.theta_o=[0.0, 1.0]", "table.theta_o", "the quantity is fresnel"),
+        ("table.phi={ start = 0, stop = 1, count = 3 }", "table.phi", "no such axis"),
+        ("table.phi_i=5", "table.phi_i", "no such axis"),
         ("table.cos_theta=true", "table.cos_theta", "got true"),
         ('table.cos_theta="64"', "table.cos_theta", 'got "64"'),
         ("table.cos_theta=1", "table.cos_theta", ">= 2, got 1"),
@@ -156,6 +187,119 @@ def test_a_message_names_the_field(override: str, field: str, in_message: str) -
     assert len(str(error)) < 400
 
 
+ROUGH = {"stack": STACK, "surface": {"alpha_x": 0.1}}
+BRUSHED = {"stack": STACK, "surface": {"alpha_x": 0.1, "alpha_y": 0.4}}
+
+
+@pytest.mark.parametrize(
+    ("document", "overrides", "field", "in_message"),
+    [
+        (ROUGH, ["table.quantity=albedo", "table.theta_o=9"], "table.theta_o", "the quantity is albedo"),
+        (ROUGH, ["table.quantity=albedo", "table.ellipsometry=true"], "table.ellipsometry", "psi and Delta"),
+        (ROUGH, ["table.quantity=bsdf", "table.ellipsometry=true"], "table.ellipsometry", "psi and Delta"),
+        (
+            ROUGH,
+            ["table.quantity=bsdf", "table.thickness_scale=[1.0, 1.5]"],
+            "table.thickness_scale",
+            "expected 1 for a bsdf, which has one thickness, got 2 factors; make one table for each",
+        ),
+        (ROUGH, ["table.quantity=bsdf", "accuracy.delta_e=1"], "accuracy.delta_e", "nothing for a bsdf"),
+        (ROUGH, ["table.quantity=bsdf", "table.phi_i=5"], "table.phi_i", "the surface is isotropic"),
+        (
+            {"stack": STACK},
+            ["table.quantity=bsdf", "table.roughness=[0.1]", "table.phi_i=5"],
+            "table.phi_i",
+            "the surface is isotropic",
+        ),
+        (
+            BRUSHED,
+            ["table.quantity=albedo", "table.roughness=[0.1, 0.6]"],
+            "table.roughness",
+            "within 0.001 to 1, got alphas from 0.05 to 1.2; alpha_x / alpha_y is 0.25",
+        ),
+        (BRUSHED, ["table.quantity=albedo", "table.roughness=[0.001]"], "table.roughness", "from 0.0005"),
+        (
+            BRUSHED,
+            ["table.quantity=albedo", "surface.exponent_x=9"],
+            "surface.exponent_x",
+            "either alpha or exponent, got alpha_x and alpha_y and exponent_x",
+        ),
+    ],
+    ids=str,
+)
+def test_sections_must_agree(
+    document: dict[str, Any], overrides: list[str], field: str, in_message: str
+) -> None:
+    """What one section says and another has no use for is refused, not left unread."""
+    error = refused(document, *overrides)
+    assert error.field == field
+    assert in_message in str(error)
+    assert error.remedy
+    assert len(str(error)) < 400
+
+
+@pytest.mark.parametrize("quantity", ["fresnel", "albedo", "bsdf"])
+@pytest.mark.parametrize("document", [ROUGH, BRUSHED])
+def test_every_quantity_survives_json(quantity: str, document: dict[str, Any]) -> None:
+    """A file's provenance is the spec with its defaults written out: it must be a spec itself."""
+    written = Spec.from_document(document, [f"table.quantity={quantity}"])
+    assert Spec.from_text(written.model_dump_json(), Syntax.JSON) == written
+    assert Spec.from_text(canonical_json(written), Syntax.JSON) == written
+
+
+@pytest.mark.parametrize("quantity", ["albedo", "bsdf"])
+def test_a_roughness_axis_needs_no_surface(quantity: str) -> None:
+    """It makes the surface of the paper: Ashikhmin and Shirley's, isotropic."""
+    written = Spec.from_document(
+        {"stack": STACK}, [f"table.quantity={quantity}", "table.roughness=[0.1, 0.2]"]
+    )
+    assert surface_of(written) == Surface()
+    assert roughness_values(written).tolist() == [0.1, 0.2]
+
+
+def test_a_surface_has_a_roughness_of_its_own() -> None:
+    """sqrt(alpha_x alpha_y), unless the table has an axis; a smooth film has none."""
+    assert roughness_values(Spec.from_document(BRUSHED)).tolist() == pytest.approx([0.2], rel=1e-12)
+    axis = ["table.quantity=albedo", "table.roughness=[0.05, 0.5]"]
+    assert roughness_values(Spec.from_document(BRUSHED, axis)).tolist() == [0.05, 0.5]
+    assert roughness_values(spec()).size == 0
+
+
+def test_the_widest_anisotropy_is_within_the_bounds() -> None:
+    """Ends that a root has rounded are still ends."""
+    widest = {"stack": STACK, "surface": {"alpha_x": 0.001, "alpha_y": 1.0}, "table": {"quantity": "bsdf"}}
+    assert roughness_values(Spec.from_document(widest)).tolist() == pytest.approx([0.001**0.5], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("document", "shape", "phi_degrees", "phi_i_degrees"),
+    [(ROUGH, (16, 32, 19, 1), (0, 180), (0, 0)), (BRUSHED, (16, 32, 37, 5), (-180, 180), (0, 90))],
+)
+def test_a_bsdf_has_the_angles_that_its_symmetry_leaves(
+    document: dict[str, Any],
+    shape: tuple[int, ...],
+    phi_degrees: tuple[int, int],
+    phi_i_degrees: tuple[int, int],
+) -> None:
+    """Half a turn of phi for an isotropic surface; all of it, and a quarter of phi_i, for a brushed one."""
+    angles = bsdf_angles(Spec.from_document(document, ["table.quantity=bsdf"]))
+    assert (angles.theta_i.size, angles.theta_o.size, angles.phi.size, angles.phi_i.size) == shape
+    for theta in (angles.theta_i, angles.theta_o):
+        assert np.degrees(theta[[0, -1]]) == pytest.approx([0, 89])
+    assert np.degrees(angles.phi[[0, -1]]) == pytest.approx(phi_degrees)
+    assert np.degrees(angles.phi_i[[0, -1]]) == pytest.approx(phi_i_degrees)
+
+
+def test_a_bsdf_has_the_angles_that_it_is_given() -> None:
+    """Counts and lists, each where it belongs."""
+    given_ = ["theta_i=[0.5]", "theta_o=4", "phi=[0.0, 1.0]", "phi_i=[0.25, 0.75]"]
+    angles = bsdf_angles(
+        Spec.from_document(BRUSHED, ["table.quantity=bsdf", *(f"table.{axis}" for axis in given_)])
+    )
+    assert (angles.theta_i.tolist(), angles.theta_o.size) == ([0.5], 4)
+    assert (angles.phi.tolist(), angles.phi_i.tolist()) == ([0.0, 1.0], [0.25, 0.75])
+
+
 def test_one_message_for_many_faults() -> None:
     """The first fault is told, the others are counted."""
     error = refused({"stack": STACK, "table": {"cos_theta": 1, "quantity": "x"}, "name": 5})
@@ -196,6 +340,8 @@ def test_the_schema_describes_every_form() -> None:
     assert {form.get("type") for form in definitions["NamedMaterial"]["anyOf"]} == {"string", "object"}
     assert len(definitions["TableSpec"]["properties"]["cos_theta"]["oneOf"]) == 3
     assert definitions["TableSpec"]["properties"]["cos_theta"]["oneOf"][1]["minItems"] == 2
+    assert len(definitions["TableSpec"]["properties"]["theta_i"]["oneOf"]) == 4
+    assert definitions["Surface"]["properties"]["masking"]["enum"] == ["v-cavity", "smith", "smith-separable"]
 
 
 def test_reading_a_spec_loads_nothing_heavy() -> None:
