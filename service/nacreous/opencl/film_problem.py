@@ -1,5 +1,7 @@
 """A film as the kernels take it: plain arrays in double precision, and the buffers made of them."""
 
+import functools
+import itertools
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,9 +71,16 @@ class FilmProblem:
 
     @property
     def build_numbers(self) -> tuple[tuple[str, int], ...]:
-        """What kernels/film.clh is compiled for: only the kinds of segments that there are."""
+        """What kernels/film.clh is compiled for: kinds of segments that there are, and room for media."""
         periodic = any(segment.repeat > 1 for segment in self.segments)
-        return ("INCOHERENT", int(self.incoherent)), ("PERIODIC", int(periodic))
+        room = next(room for n in itertools.count(1) if (room := 4**n) >= max(self.medium_of) + 1)
+        return ("INCOHERENT", int(self.incoherent)), ("PERIODIC", int(periodic)), ("MEDIA", room)
+
+    @functools.cached_property
+    def medium_of(self) -> tuple[int, ...]:
+        """Number of the medium of each layer and the substrate: equal rows of `index` are one medium."""
+        numbers: dict[bytes, int] = {}
+        return tuple(numbers.setdefault(row.tobytes(), len(numbers)) for row in self.index[1:])
 
     @property
     def layer_evaluations_a_row(self) -> int:
@@ -97,11 +106,14 @@ def film_buffers(device: Device, problem: FilmProblem, precision: Precision, lan
     incident = np.stack([n0, 1 / n0, 1 / padded.wavelength_nm])  # (3, stride)
     segments = np.array([(s.first, s.stop, s.repeat) for s in problem.segments], np.int32)
     variants, layers = problem.thickness_nm.shape[1:]
-    counts = (len(segments), layers, stride)
+    media = [padded.medium_of.index(number) for number in range(max(padded.medium_of) + 1)]
+    index = padded.index[[0, *(1 + layer for layer in media)]]
+    counts = (len(media), len(segments), layers, stride)
     grid = (variants, problem.shape[1])
     arguments = (
-        upload(device, _media(padded.index), dtype),
-        upload(device, _critical_mu2(padded.index, lanes), dtype),
+        upload(device, _media(index), dtype),
+        upload(device, _critical_mu2(index, lanes), dtype),
+        upload(device, padded.medium_of, np.int32),
         upload(device, segments, np.int32),
         *map(np.int32, counts),
         upload(device, incident, dtype),
