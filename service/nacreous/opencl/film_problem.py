@@ -113,7 +113,7 @@ def film_buffers(device: Device, problem: FilmProblem, precision: Precision, lan
     arguments = (
         upload(device, _media(index), dtype),
         upload(device, _critical_mu2(index, lanes), dtype),
-        upload(device, padded.medium_of, np.int32),
+        upload(device, np.array(padded.medium_of), np.int32),
         upload(device, segments, np.int32),
         *map(np.int32, counts),
         upload(device, incident, dtype),
