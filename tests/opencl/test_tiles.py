@@ -52,7 +52,7 @@ def _problem() -> FilmProblem:
 def test_results_do_not_depend_on_the_tiles(
     first: int, lanes: int, device: Device, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A row at a time, a few, or all at once: the same bytes, in place (1 lane) or with padding left behind."""
+    """A row at a time, a few, or all at once: the same bytes, in place (1 lane) or with padding left."""
     whole = film_intensities(device, _problem(), Precision.SINGLE, lanes=lanes)
     monkeypatch.setattr(tiles, "_FIRST_TILE_EVALUATIONS", first)
     monkeypatch.setattr(tiles, "_MOST_GROWTH", 1)
