@@ -116,9 +116,11 @@ class TileRunner:
         try:
             buffers = self._staging_of(tile.rows) if padded else [self._in_place(part) for part in rows]
             self.kernel.set_args(*arguments, *buffers)
-            cl.enqueue_nd_range_kernel(self.device.queue, self.kernel, rounded, self.group).wait()
+            cl.enqueue_nd_range_kernel(self.device.queue, self.kernel, rounded, self.group)
+            collect = self._copy if padded else self._bring_home
             for part, buffer in zip(rows, buffers, strict=True):
-                self._copy(part, buffer) if padded else self._finish(part, buffer)
+                collect(part, buffer)
+            self.device.queue.finish()
         except cl.Error as error:
             name = self.kernel.function_name
             raise DeviceError(f"{self.device.info.name} failed in kernel {name}: {error}") from error
@@ -130,12 +132,12 @@ class TileRunner:
         flags = cl.mem_flags.WRITE_ONLY | cl.mem_flags.USE_HOST_PTR
         return cl.Buffer(self.device.context, flags, hostbuf=rows)
 
-    def _finish(self, rows: NDArray[Any], buffer: Any) -> None:  # noqa: ANN401 - pyopencl is untyped
-        """Bring home what a device with memory of its own has written: mapping a buffer promises that."""
+    def _bring_home(self, rows: NDArray[Any], buffer: Any) -> None:  # noqa: ANN401 - pyopencl is untyped
+        """Queue the way home for what a device with its own memory writes: mapping a buffer promises it."""
         import pyopencl as cl
 
-        read = cl.map_flags.READ
-        mapped, _ = cl.enqueue_map_buffer(self.device.queue, buffer, read, 0, rows.shape, rows.dtype)
+        queue, read = self.device.queue, cl.map_flags.READ
+        mapped, _ = cl.enqueue_map_buffer(queue, buffer, read, 0, rows.shape, rows.dtype, is_blocking=False)
         mapped.base.release()
 
     def _staging_of(self, rows: int) -> list[Any]:
