@@ -13,7 +13,8 @@ kernel void film(FILM_ARGUMENTS,
     if (row >= row_stop || block * LANES >= stride) return;
 
     film_stack stack = FILM_STACK;
-    incidence in = incidence_at(incident, stride, block, cos_theta[angle]);
+    wave waves[MEDIA];
+    incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
     thickness_nm += scale * variants * layer_count;
     intensities mean = mean_intensities(stack, thickness_nm, weights, variants, in);
 

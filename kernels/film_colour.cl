@@ -23,10 +23,11 @@ kernel void film_colour(FILM_ARGUMENTS,
     if (row >= row_stop) return;
 
     film_stack stack = FILM_STACK;
+    wave waves[MEDIA];
     thickness_nm += scale * variants * layer_count;
     lane red = (lane)(0), green = (lane)(0), blue = (lane)(0);
     for (int block = 0; block < stride / LANES; ++block) {
-        incidence in = incidence_at(incident, stride, block, cos_theta[angle]);
+        incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
         lane value = unpolarised(mean_intensities(stack, thickness_nm, weights, variants, in));
         red += value * lane_load(colour_weights, block);
         green += value * lane_load(colour_weights + stride, block);

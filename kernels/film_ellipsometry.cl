@@ -11,7 +11,8 @@ kernel void film_ellipsometry(FILM_ARGUMENTS,
     if (row >= row_stop || block * LANES >= stride) return;
 
     film_stack stack = FILM_STACK;
-    incidence in = incidence_at(incident, stride, block, cos_theta[angle]);
+    wave waves[MEDIA];
+    incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
     admittance substrate = admittance_of(stack, layer_count, in);
     magnitude size = no_magnitude();
     column f = coherent_field(stack, thickness_nm + scale * variants * layer_count, in, substrate, &size);

@@ -21,14 +21,34 @@ def test_wavelengths_fill_whole_lanes(wavelengths: int, lanes: int, stride: int,
 
 
 def test_a_film_is_built_for_the_segments_it_has() -> None:
-    """INCOHERENT where a layer is thick, PERIODIC where a group repeats."""
+    """INCOHERENT where a layer is thick, PERIODIC where a group repeats, room for four media."""
     n, d_nm = [1, 2, 1.4, 1.5], [100, 100]
     plain = plain_problem(n, d_nm, 550, 1)
     thick = plain_problem(n, d_nm, 550, 1, coherent=[True, False])
     periodic = plain_problem(n, d_nm, 550, 1, groups=[(0, 2, 3)])
-    assert dict(plain.build_numbers) == {"INCOHERENT": 0, "PERIODIC": 0}
-    assert dict(thick.build_numbers) == {"INCOHERENT": 1, "PERIODIC": 0}
-    assert dict(periodic.build_numbers) == {"INCOHERENT": 0, "PERIODIC": 1}
+    assert dict(plain.build_numbers) == {"INCOHERENT": 0, "PERIODIC": 0, "MEDIA": 4}
+    assert dict(thick.build_numbers) == {"INCOHERENT": 1, "PERIODIC": 0, "MEDIA": 4}
+    assert dict(periodic.build_numbers) == {"INCOHERENT": 0, "PERIODIC": 1, "MEDIA": 4}
+
+
+def test_a_medium_is_counted_once() -> None:
+    """Twenty pairs of two materials on one of them are two media; the incident medium is none of them."""
+    problem = plain_problem([1, *[2, 1.4] * 20, 2], [100] * 40, [500, 600], 1)
+    assert problem.medium_of == (0, 1) * 20 + (0,)
+    assert dict(problem.build_numbers)["MEDIA"] == 4
+
+
+@pytest.mark.parametrize(("layers", "room"), [(3, 4), (4, 16), (15, 16), (16, 64)])
+def test_there_is_room_for_every_medium(layers: int, room: int) -> None:
+    """A power of four, so that few programs serve all films: layers of different media, and the substrate."""
+    n = 1.3 + 0.01 * np.arange(layers + 1)
+    problem = plain_problem([1, *n], [50] * layers, [500, 600], [0.4, 1])
+    assert dict(problem.build_numbers)["MEDIA"] == room
+    got, at = (
+        kernel_film([1, *n], [50] * layers, [500, 600], [0.4, 1]),
+        film([1, *n], [50] * layers, [500, 600], [0.4, 1]),
+    )
+    np.testing.assert_allclose(got.R_p, at.R_p, rtol=0, atol=1e-12)
 
 
 def test_scales_angles_and_wavelengths_are_in_their_places(device: Device) -> None:

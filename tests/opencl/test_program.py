@@ -15,7 +15,7 @@ from nacreous.opencl.program import Build, kernel_of
 
 def test_a_kernel_is_built_once(device: Device) -> None:
     """The same build is the same kernel; in another lane width it is another."""
-    build = Build("film", Precision.SINGLE, 16, (("INCOHERENT", 0), ("PERIODIC", 0)))
+    build = Build("film", Precision.SINGLE, 16, (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4)))
     assert kernel_of(device, build) is kernel_of(device, build)
     assert kernel_of(device, replace(build, lanes=1)) is not kernel_of(device, build)
 
@@ -38,7 +38,9 @@ def test_a_fault_is_found_by_file_and_line(
     lines.insert(-1, fault)
     header.write_text("\n".join(lines))
     monkeypatch.setattr(sources, "KERNELS", folder)
-    build = Build("film", Precision.SINGLE, 4, (("INCOHERENT", 0), ("PERIODIC", 0), ("FAULT", len(fault))))
+    build = Build(
+        "film", Precision.SINGLE, 4, (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("FAULT", len(fault)))
+    )
     with pytest.raises(DeviceError, match="kernel film does not build") as refused:
         kernel_of(device, build)
     assert f"complex.clh:{len(lines) - 1}:" in str(refused.value)

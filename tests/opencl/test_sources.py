@@ -40,7 +40,7 @@ def test_every_kernel_builds_without_a_warning(
 ) -> None:
     """With -Werror, for every precision and lane width; the options on and off."""
     for switch in (0, 1):
-        numbers = tuple((name, switch) for name in NUMBERS[kernel])
+        numbers = (*((name, switch) for name in NUMBERS[kernel]), ("MEDIA", 4))
         assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel
 
 

@@ -10,7 +10,7 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film import film_intensities
 from nacreous.opencl.film_problem import FilmProblem, Segment
 from nacreous.opencl.precision import Precision
-from nacreous.opencl.tiles import row_tiles
+from nacreous.opencl.tiles import empty_table, row_tiles
 
 
 @given(rows=st.integers(1, 5000), evaluations=st.integers(1, 10**9), size=st.integers(1, 10**8))
@@ -27,6 +27,15 @@ def test_tiles_cover_every_row_once(rows: int, evaluations: int, size: int) -> N
     assert told[-1] == 1
 
 
+@given(rows=st.integers(1, 50), columns=st.integers(1, 50), precision=st.sampled_from(Precision))
+def test_a_table_is_aligned_to_the_widest_lane(rows: int, columns: int, precision: Precision) -> None:
+    """Sixteen lanes of double precision are 128 bytes, which a vector's load and store may rely on."""
+    table = empty_table(rows, columns, precision.dtype)
+    assert (table.shape, table.dtype) == ((rows, columns), np.dtype(precision.dtype))
+    assert table.ctypes.data % 128 == 0
+    assert table.flags.c_contiguous
+
+
 def _problem() -> FilmProblem:
     return FilmProblem(
         wavelength_nm=np.linspace(400, 700, 37),
@@ -38,15 +47,16 @@ def _problem() -> FilmProblem:
     )
 
 
+@pytest.mark.parametrize("lanes", [1, 16])
 @pytest.mark.parametrize("first", [1, 5_000, 10**9])
 def test_results_do_not_depend_on_the_tiles(
-    first: int, device: Device, monkeypatch: pytest.MonkeyPatch
+    first: int, lanes: int, device: Device, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A row at a time, a few, or all at once: the same bytes."""
-    whole = film_intensities(device, _problem(), Precision.SINGLE)
+    """A row at a time, a few, or all at once: the same bytes, in place (1 lane) or with padding left."""
+    whole = film_intensities(device, _problem(), Precision.SINGLE, lanes=lanes)
     monkeypatch.setattr(tiles, "_FIRST_TILE_EVALUATIONS", first)
     monkeypatch.setattr(tiles, "_MOST_GROWTH", 1)
-    tiled = film_intensities(device, _problem(), Precision.SINGLE)
+    tiled = film_intensities(device, _problem(), Precision.SINGLE, lanes=lanes)
     for name, values in whole.items():
         assert values.tobytes() == tiled[name].tobytes()
 

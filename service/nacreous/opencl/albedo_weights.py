@@ -9,7 +9,7 @@ from nacreous.opencl.film_problem import upload
 from nacreous.opencl.microsurface import Microsurface, facet_rows, surface_arguments
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import Observer, TileRunner, row_tiles
+from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles
 from nacreous.optics.facets import FacetRule, facet_quadrature, incident_azimuths
 
 __all__ = ["reflection_weights", "transmission_weights"]
@@ -96,7 +96,7 @@ def _weights(
         np.array(eta, precision.dtype)[()],
         np.int32(nodes),
     )
-    weights = np.empty((rows, nodes), precision.dtype)
+    weights = empty_table(rows, nodes, precision.dtype)
     runner = TileRunner(device, kernel, (weights,), nodes, (1,))
     for tile in row_tiles(rows, facets.shape[-1] * len(phi), nodes * item, observer):
         runner.run(tile, (*arguments, *tile.bounds), (tile.rows,))

@@ -14,7 +14,7 @@ from nacreous.opencl.film_problem import upload
 from nacreous.opencl.microsurface import Microsurface, surface_arguments
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import Observer, Tile, TileRunner, row_tiles
+from nacreous.opencl.tiles import Observer, Tile, TileRunner, empty_table, row_tiles
 
 __all__ = ["BsdfProblem", "bsdf_colours", "bsdf_spectra"]
 
@@ -64,7 +64,7 @@ def bsdf_spectra(
     """
     rows, wavelengths = len(problem.roughness), problem.film.shape[1]
     require(f"a BSDF of {rows:,} x {wavelengths:,} numbers", rows * wavelengths * _item(precision))
-    f = np.empty((rows, wavelengths), precision.dtype)
+    f = empty_table(rows, wavelengths, precision.dtype)
     _run(device, "bsdf", problem, precision, lanes, observer, f, None)
     return f
 
@@ -84,7 +84,7 @@ def bsdf_colours(
     """
     rows = len(problem.roughness)
     require(f"the colours of a BSDF of {rows:,} pairs of directions", rows * 3 * _item(precision))
-    colour = np.empty((rows, 3), precision.dtype)
+    colour = empty_table(rows, 3, precision.dtype)
     _run(device, "bsdf_colour", problem, precision, lanes, observer, colour, colour_weights)
     return colour
 

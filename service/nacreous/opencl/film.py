@@ -8,13 +8,13 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film_problem import FilmProblem, film_buffers
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import Observer, TileRunner, row_tiles
+from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles
 
 __all__ = ["GROUPS", "NAMES", "film_intensities", "spectral_rows"]
 
 NAMES = ("R_s", "R_p", "T_s", "T_p")
 
-GROUPS = {"cpu": (1, 16), "gpu": (32, 4), "other": (1, 1)}
+GROUPS = {"cpu": (16, 4), "gpu": (32, 4), "other": (1, 1)}
 """Work-group sizes (blocks of wavelengths, rows) by kind of device; PoCL compiles anew for each size."""
 
 
@@ -60,7 +60,7 @@ def spectral_rows(
     lanes = lanes or device.lanes(precision)
     kernel = kernel_of(device, Build(kernel_name, precision, lanes, problem.build_numbers))
     buffers = film_buffers(device, problem, precision, lanes)
-    results = {name: np.empty((rows, wavelengths), precision.dtype) for name in names}
+    results = {name: empty_table(rows, wavelengths, precision.dtype) for name in names}
     runner = TileRunner(device, kernel, tuple(results.values()), buffers.stride, GROUPS[device.info.kind])
     bytes_a_row = buffers.stride * len(names) * item
     for tile in row_tiles(rows, problem.layer_evaluations_a_row, bytes_a_row, observer):

@@ -10,7 +10,7 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film_problem import FilmProblem, film_buffers, upload
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import Observer, TileRunner, row_tiles
+from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles
 
 __all__ = ["Side", "film_colour"]
 
@@ -54,7 +54,7 @@ def film_colour(
     buffers = film_buffers(device, problem, precision, lanes)
     padding = buffers.stride - colour_weights.shape[1]
     weights = upload(device, np.pad(colour_weights, ((0, 0), (0, padding))), precision.dtype)
-    colour = np.empty((problem.rows, 3), precision.dtype)
+    colour = empty_table(problem.rows, 3, precision.dtype)
     runner = TileRunner(device, kernel, (colour,), 3, _GROUPS[device.info.kind])
     for tile in row_tiles(problem.rows, problem.layer_evaluations_a_row, 3 * item, observer):
         runner.run(tile, (*buffers.arguments, *tile.bounds, weights), (tile.rows,))

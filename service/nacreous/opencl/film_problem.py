@@ -1,5 +1,7 @@
 """A film as the kernels take it: plain arrays in double precision, and the buffers made of them."""
 
+import functools
+import itertools
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,9 +71,19 @@ class FilmProblem:
 
     @property
     def build_numbers(self) -> tuple[tuple[str, int], ...]:
-        """What kernels/film.clh is compiled for: only the kinds of segments that there are."""
+        """What the kernels are compiled for: the kinds of segments that there are, and room for media.
+
+        The room is a power of four, so that few programs serve all films.
+        """
         periodic = any(segment.repeat > 1 for segment in self.segments)
-        return ("INCOHERENT", int(self.incoherent)), ("PERIODIC", int(periodic))
+        room = next(room for n in itertools.count(1) if (room := 4**n) >= max(self.medium_of) + 1)
+        return ("INCOHERENT", int(self.incoherent)), ("PERIODIC", int(periodic)), ("MEDIA", room)
+
+    @functools.cached_property
+    def medium_of(self) -> tuple[int, ...]:
+        """Number of the medium of each layer and the substrate: equal rows of `index` are one medium."""
+        numbers: dict[bytes, int] = {}
+        return tuple(numbers.setdefault(row.tobytes(), len(numbers)) for row in self.index[1:])
 
     @property
     def layer_evaluations_a_row(self) -> int:
@@ -97,11 +109,14 @@ def film_buffers(device: Device, problem: FilmProblem, precision: Precision, lan
     incident = np.stack([n0, 1 / n0, 1 / padded.wavelength_nm])  # (3, stride)
     segments = np.array([(s.first, s.stop, s.repeat) for s in problem.segments], np.int32)
     variants, layers = problem.thickness_nm.shape[1:]
-    counts = (len(segments), layers, stride)
+    media = [problem.medium_of.index(number) for number in range(max(problem.medium_of) + 1)]
+    index = padded.index[[0, *(1 + layer for layer in media)]]  # (media + 1, stride)
+    counts = (len(media), len(segments), layers, stride)
     grid = (variants, problem.shape[1])
     arguments = (
-        upload(device, _media(padded.index), dtype),
-        upload(device, _critical_mu2(padded.index, lanes), dtype),
+        upload(device, _media(index), dtype),
+        upload(device, _critical_mu2(index, lanes), dtype),
+        upload(device, np.array(problem.medium_of), np.int32),
         upload(device, segments, np.int32),
         *map(np.int32, counts),
         upload(device, incident, dtype),
@@ -124,7 +139,7 @@ def _padded(problem: FilmProblem, lanes: int) -> FilmProblem:
 
 
 def _media(index: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """Rows of kernels/medium.clh for each layer and the substrate, shape (M + 1, 5, stride)."""
+    """Rows of kernels/medium.clh for each medium after the incident one, shape (media, 5, stride)."""
     n, n0 = index[1:], index[0].real
     n_squared = n**2
     contrast = (n.real - n0) * (n.real + n0) - n.imag**2
@@ -133,7 +148,7 @@ def _media(index: NDArray[np.complex128]) -> NDArray[np.float64]:
 
 
 def _critical_mu2(index: NDArray[np.complex128], lanes: int) -> NDArray[np.float64]:
-    """Square of the cosine above which a whole block of lanes is transparent, shape (M + 1, stride / lanes).
+    """Square of the cosine above which a whole block of lanes is transparent, shape (media, stride / lanes).
 
     2, which no cosine reaches, where a lane absorbs.
     """

@@ -9,7 +9,7 @@ from nacreous.opencl.film_problem import upload
 from nacreous.opencl.microsurface import Microsurface, surface_arguments
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import TileRunner, row_tiles
+from nacreous.opencl.tiles import TileRunner, empty_table, row_tiles
 
 __all__ = ["microfacets"]
 
@@ -51,9 +51,10 @@ def microfacets(
         upload(device, padded.T, precision.dtype),
         np.int32(len(padded)),
     )
-    results = tuple(np.empty((roughnesses * len(padded) // lanes, lanes), precision.dtype) for _ in range(2))
+    rows = roughnesses * len(padded) // lanes
+    results = tuple(empty_table(rows, lanes, precision.dtype) for _ in range(2))
     runner = TileRunner(device, kernel, results, lanes, (1,))
-    for tile in row_tiles(len(results[0]), lanes, 2 * lanes * item, None):
+    for tile in row_tiles(rows, lanes, 2 * lanes * item, None):
         runner.run(tile, (*arguments, *tile.bounds), (tile.rows,))
     density, area = (values.reshape(roughnesses, -1)[:, :count] for values in results)
     return density, area

@@ -10,7 +10,7 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film_problem import upload
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import TileRunner, row_tiles
+from nacreous.opencl.tiles import TileRunner, empty_table, row_tiles
 from nacreous.optics.facets import FacetRule, facet_quadrature
 
 __all__ = ["Microsurface", "facet_rows", "microsurface", "surface_arguments"]
@@ -114,7 +114,7 @@ def _projected_areas(
         np.int32(rows.shape[-1]),
     )
     entries = dict(numbers)["AREA_COSINES"] * dict(numbers)["AREA_AZIMUTHS"]
-    areas = np.empty((len(alphas) * entries, 1), precision.dtype)
+    areas = empty_table(len(alphas) * entries, 1, precision.dtype)
     runner = TileRunner(device, kernel, (areas,), 1, (1,))
     for tile in row_tiles(len(areas), rows.shape[-1], areas.itemsize, None):
         runner.run(tile, (*arguments, *tile.bounds), (tile.rows,))

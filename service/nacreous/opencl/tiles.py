@@ -10,12 +10,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from nacreous.errors import DeviceError
 from nacreous.opencl.device import Device
 
-__all__ = ["Observer", "Tile", "TileRunner", "row_tiles", "step_of"]
+__all__ = ["Observer", "Tile", "TileRunner", "empty_table", "row_tiles", "step_of"]
 
 Observer = Callable[[float], None]
 """Told the fraction done, 0 to 1, after every tile; what it raises ends the work."""
@@ -24,6 +24,8 @@ _TARGET_SECONDS = 0.1
 _FIRST_TILE_EVALUATIONS = 5_000_000
 _MOST_TILE_BYTES = 32 * 2**20
 _MOST_GROWTH = 4
+_ALIGNMENT = 128
+"""Bytes that the address of a table is a multiple of: at least a `lane` of the kernels, and a cache line."""
 
 
 def step_of(observer: Observer | None, done: int, steps: int) -> Observer | None:
@@ -71,9 +73,20 @@ def row_tiles(
         size = min(most, max(1, int(size * growth)))
 
 
+def empty_table(rows: int, columns: int, dtype: DTypeLike) -> NDArray[Any]:
+    """Memory that kernels may fill in place, of shape (rows, columns); its content is undefined."""
+    size = rows * columns * np.dtype(dtype).itemsize
+    memory = np.empty(size + _ALIGNMENT, np.uint8)
+    start = -memory.ctypes.data % _ALIGNMENT
+    return memory[start : start + size].view(dtype).reshape(rows, columns)
+
+
 @dataclass(frozen=True, eq=False)
 class TileRunner:
-    """A kernel that fills rows of tables, and its output buffers, which all tiles of a table share.
+    """A kernel that fills rows of tables.
+
+    Rows without padding are written where they belong; others go through buffers that all tiles share, and
+    leave their padding behind.
 
     Parameters
     ----------
@@ -81,7 +94,7 @@ class TileRunner:
     kernel
         Built kernel.
     tables : tuple of float arrays, shape (rows, columns)
-        What the kernel fills, in the order of its last arguments.
+        What the kernel fills, in the order of its last arguments; see `empty_table`.
     stride : int
         Columns of a row on the device, at least as many as the tables have.
     group : tuple of int
@@ -93,34 +106,53 @@ class TileRunner:
     tables: tuple[NDArray[Any], ...]
     stride: int
     group: tuple[int, ...]
-    _buffers: list[Any] = field(default_factory=list)
+    _staging: list[Any] = field(default_factory=list)
 
     def run(self, tile: Tile, arguments: tuple[Any, ...], work: tuple[int, ...]) -> None:
-        """Launch over `work` items, wait, and copy the tile's rows into the tables.
+        """Launch over `work` items, wait, and leave the tile's rows in the tables.
 
         `arguments` is everything before the outputs.
         """
         import pyopencl as cl
 
         rounded = tuple(-(-items // local) * local for items, local in zip(work, self.group, strict=True))
+        rows = [table[tile.origin : tile.origin + tile.rows] for table in self.tables]
+        padded = any(table.shape[1] < self.stride for table in self.tables)
         try:
-            buffers = self._buffers_of(tile.rows)
+            buffers = self._staging_of(tile.rows) if padded else [self._in_place(part) for part in rows]
             self.kernel.set_args(*arguments, *buffers)
-            cl.enqueue_nd_range_kernel(self.device.queue, self.kernel, rounded, self.group).wait()
-            for table, buffer in zip(self.tables, buffers, strict=True):
-                self._copy(table[tile.origin : tile.origin + tile.rows], buffer)
+            cl.enqueue_nd_range_kernel(self.device.queue, self.kernel, rounded, self.group)
+            collect = self._copy if padded else self._bring_home
+            for part, buffer in zip(rows, buffers, strict=True):
+                collect(part, buffer)
+            self.device.queue.finish()
         except cl.Error as error:
             name = self.kernel.function_name
             raise DeviceError(f"{self.device.info.name} failed in kernel {name}: {error}") from error
 
-    def _buffers_of(self, rows: int) -> list[Any]:
+    def _in_place(self, rows: NDArray[Any]) -> Any:  # noqa: ANN401 - pyopencl is untyped
+        """Return a buffer that is the rows themselves, where the device shares the host's memory."""
+        import pyopencl as cl
+
+        flags = cl.mem_flags.READ_WRITE | cl.mem_flags.USE_HOST_PTR
+        return cl.Buffer(self.device.context, flags, hostbuf=rows)
+
+    def _bring_home(self, rows: NDArray[Any], buffer: Any) -> None:  # noqa: ANN401 - pyopencl is untyped
+        """Queue the way home for what a device with its own memory writes: mapping a buffer promises it."""
+        import pyopencl as cl
+
+        queue, read = self.device.queue, cl.map_flags.READ
+        mapped, _ = cl.enqueue_map_buffer(queue, buffer, read, 0, rows.shape, rows.dtype, is_blocking=False)
+        mapped.base.release()
+
+    def _staging_of(self, rows: int) -> list[Any]:
         import pyopencl as cl
 
         sizes = [rows * self.stride * table.itemsize for table in self.tables]
-        if not self._buffers or self._buffers[0].size < sizes[0]:
-            flags = cl.mem_flags.WRITE_ONLY
-            self._buffers[:] = [cl.Buffer(self.device.context, flags, size) for size in sizes]
-        return self._buffers
+        if not self._staging or self._staging[0].size < sizes[0]:
+            flags = cl.mem_flags.READ_WRITE
+            self._staging[:] = [cl.Buffer(self.device.context, flags, size) for size in sizes]
+        return self._staging
 
     def _copy(self, rows: NDArray[Any], buffer: Any) -> None:  # noqa: ANN401 - pyopencl is untyped
         """Copy rows from the device, leaving their padding behind."""
