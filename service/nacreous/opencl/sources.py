@@ -41,6 +41,9 @@ def _expand(file: str, seen: set[str]) -> str:
     lines = [f'#line 1 "{file}"']
     depth = -1 if file.endswith(".clh") else 0  # a header's own guard is no condition
     for number, line in enumerate((KERNELS / file).read_text(encoding="utf-8").splitlines(), 1):
+        if not line.startswith("#"):
+            lines.append(line)
+            continue
         depth += line.startswith("#if") - line.startswith("#endif")
         included = _INCLUDE.fullmatch(line)
         if included is None:
