@@ -8,7 +8,7 @@
 //
 // TRANSMISSION 1: light that the facets refract, by the ratio `eta` = eta_i / eta_o; 0: reflected light. One work-item:
 // one row, roughness * angles + angle; work size (rows of this launch). `facets` are laid out as in microfacet_area.cl;
-// for Phong they are directions o about the mirror direction. An anisotropic surface is averaged over azimuths of i.
+// for Phong they are directions o about the mirror direction. Sums of more than some 8,000 facets want REAL 64.
 #include "microfacet.clh"
 #include "nodes.clh"
 
@@ -79,12 +79,12 @@ INLINE void add_to_nodes(lane share, lane cosine, global real *row, int nodes) {
 
 kernel void albedo_weights(global const real *alphas,    // (roughnesses, 2)
                            global const real *areas,     // (roughnesses, AREA_COSINES, AREA_AZIMUTHS)
-                           global const real *facets,    // (roughnesses, azimuths, FACET_ROWS, facet_stride)
+                           global const real *facets,    // (roughnesses, FACET_ROWS, facet_stride)
                            int facet_stride,
                            global const real *cos_theta, // (angles)
                            int angles,
-                           global const real *azimuths,  // (azimuth_count, 2): cosine and sine
-                           int azimuth_count, real eta, int nodes, int row_origin, int row_stop,
+                           real cos_phi, real sin_phi,   // of the incident light
+                           real eta, int nodes, int row_origin, int row_stop,
                            global real *weights) {       // (row_stop - row_origin, nodes)
     int row = row_origin + (int)get_global_id(0);
     if (row >= row_stop) return;
@@ -92,20 +92,15 @@ kernel void albedo_weights(global const real *alphas,    // (roughnesses, 2)
     int roughness = row / angles;
     microsurface m = {alphas[2 * roughness], alphas[2 * roughness + 1],
                       areas + roughness * AREA_COSINES * AREA_AZIMUTHS};
-    facets += roughness * azimuth_count * FACET_ROWS * facet_stride;
+    real mu = cos_theta[row % angles], sine = sqrt((1 - mu) * (1 + mu));
+    direction i = direction_of(sine * cos_phi, sine * sin_phi, mu);
+    facets += roughness * FACET_ROWS * facet_stride;
     weights += (row - row_origin) * nodes;
     for (int k = 0; k < nodes; ++k) weights[k] = 0;
-
-    real mu = cos_theta[row % angles], sine = sqrt((1 - mu) * (1 + mu)), share = (real)1 / azimuth_count;
-    for (int a = 0; a < azimuth_count; ++a) {
-        direction i = direction_of(sine * azimuths[2 * a], sine * azimuths[2 * a + 1], mu);
-        for (int block = 0; block < facet_stride / LANES; ++block) {
-            direction h = {lane_load(facets, block), lane_load(facets + facet_stride, block),
-                           lane_load(facets + 2 * facet_stride, block)};
-            lane weight = share * lane_load(facets + 3 * facet_stride, block);
-            facet_path path = path_of(i, h, weight, eta);
-            add_to_nodes(path_share(m, i, path), path.incident, weights, nodes);
-        }
-        facets += FACET_ROWS * facet_stride;
+    for (int block = 0; block < facet_stride / LANES; ++block) {
+        direction h = {lane_load(facets, block), lane_load(facets + facet_stride, block),
+                       lane_load(facets + 2 * facet_stride, block)};
+        facet_path path = path_of(i, h, lane_load(facets + 3 * facet_stride, block), eta);
+        add_to_nodes(path_share(m, i, path), path.incident, weights, nodes);
     }
 }

@@ -1,6 +1,6 @@
 """A rough surface as the kernels take it: its roughnesses, what it is built for, and its buffers."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -45,6 +45,10 @@ class Microsurface:
     alphas: NDArray[np.float64]
     areas: NDArray[np.float64]
 
+    def part(self, roughnesses: slice) -> "Microsurface":
+        """Return the surface at some of its roughnesses."""
+        return replace(self, alphas=self.alphas[roughnesses], areas=self.areas[roughnesses])
+
     @property
     def build_numbers(self) -> tuple[tuple[str, int], ...]:
         """What kernels/microfacet.clh is compiled for."""
@@ -73,10 +77,10 @@ def surface_arguments(device: Device, surface: Microsurface, precision: Precisio
 
 
 def facet_rows(facets: NDArray[np.float64], lanes: int) -> NDArray[np.float64]:
-    """Pad facets (…, 4, N) to whole lanes, (…, 4, stride), with copies of the last that weigh nothing."""
+    """Pad facets (R, 4, N) to whole lanes, (R, 4, stride), with copies of the last that weigh nothing."""
     missing = -facets.shape[-1] % lanes
-    padded = np.pad(facets, (*((0, 0),) * (facets.ndim - 1), (0, missing)), mode="edge")
-    padded[..., 3, facets.shape[-1] :] = 0
+    padded = np.pad(facets, ((0, 0), (0, 0), (0, missing)), mode="edge")
+    padded[:, 3, facets.shape[-1] :] = 0
     return padded
 
 
@@ -123,7 +127,7 @@ def _projected_areas(
 
 def _whole_circle(distribution: str, alphas: NDArray[np.float64]) -> NDArray[np.float64]:
     """Facets at each roughness, (R, 4, N), on both sides of the plane y = 0."""
-    facets = facet_quadrature(distribution, alphas, _AREA_RULE)[:, 0]
+    facets = facet_quadrature(distribution, alphas, _AREA_RULE)
     if (facets[:, 1] < 0).any():
         return facets
     facets[:, 3] /= 2

@@ -41,6 +41,10 @@ class FacetRule:
         """Return the rule with twice as many of everything."""
         return FacetRule(2 * self.tilts, 2 * self.directions, 2 * self.incidence)
 
+    def facets(self, alphas: FloatArray) -> int:
+        """Facets at each of the roughnesses `alphas`, (R, 2), and for each azimuth of the light."""
+        return self.tilts * self.directions * (1 if _isotropic(alphas) else 2)
+
 
 def incident_azimuths(alphas: FloatArray, rule: FacetRule) -> FloatArray:
     """Return the azimuths in radians that an albedo is averaged over, (P,): a quarter's, by symmetry.
@@ -52,8 +56,8 @@ def incident_azimuths(alphas: FloatArray, rule: FacetRule) -> FloatArray:
     return np.pi / 2 * (np.arange(rule.incidence) + 0.5) / rule.incidence
 
 
-def facet_quadrature(distribution: str, alphas: FloatArray, rule: FacetRule) -> FloatArray:
-    """Return x, y, z and weight of the facets, shape (R, P, 4, N); weights have the sum 1.
+def facet_quadrature(distribution: str, alphas: FloatArray, rule: FacetRule, phi: float = 0.0) -> FloatArray:
+    """Return x, y, z and weight of the facets, shape (R, 4, N); weights have the sum 1.
 
     For ``"phong"`` they are directions about the mirror direction instead, with the weight of the lobe.
 
@@ -69,26 +73,28 @@ def facet_quadrature(distribution: str, alphas: FloatArray, rule: FacetRule) -> 
     alphas : float array, shape (R, 2)
         Along x and y. Where both are equal everywhere the facets are those of a half circle, y > 0: the
         light comes in the plane y = 0.
+    phi : float
+        Azimuth of the light that they are for, in radians.
     """
     rest, gauss = gauss_legendre(rule.tilts)  # square root of the share of steeper facets
     log_steeper, tilt_weight = 2 * np.log(rest), 2 * gauss * rest
-    turn, turn_weight = _turns(alphas, rule)  # (R, P, directions), (directions,)
+    turn, turn_weight = _turns(alphas, rule, phi)  # (R, directions), (directions,)
     tilt, along_x, along_y = _INVERSES[distribution](
-        log_steeper[:, None], turn[:, :, None], alphas[:, :, None, None, None]
-    )  # (R, P, tilts, directions)
+        log_steeper[:, None], turn[:, None], alphas[:, :, None, None]
+    )  # (R, tilts, directions)
     z = 1 / np.sqrt(1 + tilt)
     flat = np.sqrt(tilt) * z
     weights = np.broadcast_to(tilt_weight[:, None] * turn_weight, z.shape)
-    facets = np.stack([flat * along_x, flat * along_y, z, weights], axis=2)
-    return facets.reshape(*facets.shape[:3], -1)
+    facets = np.stack([flat * along_x, flat * along_y, z, weights], axis=1)
+    return facets.reshape(*facets.shape[:2], -1)
 
 
 def _isotropic(alphas: FloatArray) -> bool:
     return bool((alphas[:, 0] == alphas[:, 1]).all())
 
 
-def _turns(alphas: FloatArray, rule: FacetRule) -> tuple[FloatArray, FloatArray]:
-    """Return angles (R, P, directions) on the circle whose stretching by alpha gives slopes, and weights.
+def _turns(alphas: FloatArray, rule: FacetRule, phi: float) -> tuple[FloatArray, FloatArray]:
+    """Return angles (R, directions) on the circle whose stretching by alpha gives slopes, and weights.
 
     Facets of slopes t (alpha_x cos, alpha_y sin) are grazed by flat light from the azimuth phi a quarter turn
     away from atan2(alpha_y sin phi, alpha_x cos phi).
@@ -99,9 +105,8 @@ def _turns(alphas: FloatArray, rule: FacetRule) -> tuple[FloatArray, FloatArray]
     weight = np.tile(gauss * distance, 2)
     if not _isotropic(alphas):
         turn, weight = np.concatenate([turn, turn + np.pi]), np.tile(weight, 2) / 2
-    phi = incident_azimuths(alphas, rule)
-    grazed = np.arctan2(alphas[:, 1:] * np.sin(phi), alphas[:, :1] * np.cos(phi))  # (R, P)
-    return grazed[:, :, None] + turn, weight
+    grazed = np.arctan2(alphas[:, 1:] * np.sin(phi), alphas[:, :1] * np.cos(phi))  # (R, 1)
+    return grazed + turn, weight
 
 
 # ---- tan^2 of the tilt, and the unit vector of its azimuth -------------------------------------------------
@@ -110,7 +115,7 @@ _Inverse = Callable[[FloatArray, FloatArray, FloatArray], tuple[FloatArray, Floa
 
 
 def _stretched(turn: FloatArray, alphas: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the length squared and the unit vector of a circle stretched by alpha, (R, P, 1, directions)."""
+    """Return the length squared and the unit vector of a circle stretched by alpha, (R, 1, directions)."""
     x, y = alphas[:, 0] * np.cos(turn), alphas[:, 1] * np.sin(turn)
     length2 = x**2 + y**2
     return length2, x / np.sqrt(length2), y / np.sqrt(length2)

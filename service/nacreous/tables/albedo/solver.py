@@ -38,10 +38,13 @@ FloatArray = NDArray[np.float64]
 ENERGY_TOLERANCE = 1e-3
 """What an albedo may exceed 1 by before the surface's weights are refused."""
 
-RULE = FacetRule(128, 32, 8)
+_RULES = {False: FacetRule(128, 32, 1), True: FacetRule(64, 32, 16)}
+"""For isotropic and anisotropic surfaces: 4,096 facets for each azimuth of the light."""
+_MOST_IN_SINGLE = 8192
+"""Facets whose sum in single precision is exact to 1e-5."""
 SETTLED = 2e-4
 """Change of an albedo on doubling the rule at which it is fine enough."""
-_MOST_DOUBLINGS = 2
+_MOST_DOUBLINGS = {False: 2, True: 1}
 MEAN_ANGLES = 24
 """Angles that a cosine-weighted mean takes."""
 _SAME_INDEX = 1e-6
@@ -63,8 +66,8 @@ class AlbedoGeometry:
         nothing is transmitted.
     """
 
-    reflection: NDArray[np.floating]
-    transmission: NDArray[np.floating]
+    reflection: FloatArray
+    transmission: FloatArray
     ratios: FloatArray
 
     @property
@@ -92,7 +95,7 @@ class AlbedoSolver:
     film : FacetFilm
     rule : FacetRule
     precision : Precision
-        Of the geometry.
+        Of the geometry, where its sums are short enough for single.
     """
 
     device: Device
@@ -127,8 +130,9 @@ class AlbedoSolver:
         What is transmitted is left out where there are no wavelengths to refract.
         """
         facets = self.microsurface(roughness)
-        nodes = self.film.nodes
-        task = (self.device, facets, cos_theta, nodes, self.rule, self.precision)
+        many = self.rule.facets(facets.alphas) > _MOST_IN_SINGLE
+        precision = Precision.DOUBLE if many else self.precision
+        task = (self.device, facets, cos_theta, self.film.nodes, self.rule, precision)
         ratios = self._ratios(wavelength_nm)
         steps = 1 + ratios.size
         reflection = reflection_weights(*task, observer=step_of(observer, 0, steps))
@@ -137,7 +141,7 @@ class AlbedoSolver:
             for j, eta in enumerate(ratios)
         ]
         shape = (ratios.size, *reflection.shape)
-        return AlbedoGeometry(reflection, np.array(transmission, reflection.dtype).reshape(shape), ratios)
+        return AlbedoGeometry(reflection, np.array(transmission).reshape(shape), ratios)
 
     def mean_geometry(self, roughness: FloatArray, wavelength_nm: FloatArray) -> AlbedoGeometry:
         """Cosine-weighted mean over the hemisphere, A = 1."""
@@ -250,7 +254,7 @@ def albedo_solver(
 
     It is tried at a few roughnesses of (R,), at the largest thickness scale and the shortest wavelength.
     """
-    solver = AlbedoSolver(device, surface, film, RULE, precision)
+    solver = AlbedoSolver(device, surface, film, _RULES[surface.anisotropic], precision)
     film_R = film.spectra(grid.thickness_scale[-1:], grid.wavelength_nm[:1])[Side.REFLECTION]
 
     def albedo(solver: AlbedoSolver) -> FloatArray:
@@ -258,7 +262,7 @@ def albedo_solver(
         return _product(geometry.reflection, film_R)
 
     before = albedo(solver)
-    for _ in range(_MOST_DOUBLINGS):
+    for _ in range(_MOST_DOUBLINGS[surface.anisotropic]):
         finer = replace(solver, rule=solver.rule.doubled())
         after = albedo(finer)
         if np.abs(after - before).max() <= SETTLED:
@@ -291,6 +295,6 @@ def check_albedo(solver: AlbedoSolver, roughness: FloatArray, grid: Grid) -> flo
     return most
 
 
-def _product(weights: NDArray[np.floating], film: FloatArray) -> FloatArray:
+def _product(weights: FloatArray, film: FloatArray) -> FloatArray:
     """Weights (R, A, K) times film (S, K, C): (R, S, A, C)."""
     return np.asarray(np.matmul(weights[:, None], film[None]), np.float64)
