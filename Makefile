@@ -13,7 +13,7 @@ BIN := $(VENV)/bin
 export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 PIP_INSTALL := -m pip --disable-pip-version-check --no-input install --quiet
 
-.PHONY: help run test check bench docs clean
+.PHONY: help run test check bench docs clean llvm
 .DELETE_ON_ERROR:
 
 help:
@@ -30,7 +30,7 @@ run: $(VENV)/.installed
 	@echo 'Picture of it:'
 	@$(BIN)/nacreous preview $(PRESET) -o out/$(subst /,-,$(PRESET)).png
 
-test: $(VENV)/.group-test
+test: $(VENV)/.group-test llvm
 	$(BIN)/python -m pytest
 
 check: $(VENV)/.group-check
@@ -43,7 +43,7 @@ docs: $(VENV)/.group-test
 	$(BIN)/python -m pytest tests/test_documentation.py
 	$(BIN)/python docs/make_images.py
 
-bench: $(BENCH_VENV)/.group-$(BENCH_GROUP)
+bench: $(BENCH_VENV)/.group-$(BENCH_GROUP) llvm
 	PYTHONPATH=tests $(BENCH_VENV)/bin/python -m bench
 
 clean:
@@ -66,6 +66,11 @@ $(VENV)/.made $(BENCH_VENV)/.made:
 	@$(PYTHON) -m venv --clear $(@D)
 	@$(@D)/bin/python $(PIP_INSTALL) --upgrade 'pip>=25.1'
 	@touch $@
+
+# Mitsuba's vectorised variants compile with LLVM; without it the tests against them are skipped.
+llvm:
+	@$(call debian,$(PYTHON) -c 'import ctypes; ctypes.CDLL("libLLVM.so.19.1")',libllvm19) || \
+	    echo 'Mitsuba needs LLVM for its vectorised variants: install the package libllvm19' >&2
 
 $(VENV)/.installed $(BENCH_VENV)/.installed: %/.installed: %/.made pyproject.toml
 	@echo 'Installing Nacreous into $* ...'

@@ -3,6 +3,7 @@
 import sys
 from pathlib import Path
 
+from bench.albedo import albedo_measurements, albedo_work
 from bench.ours import FLOP_PER_LAYER_EVALUATION, ours
 from bench.page import Pair, render
 from bench.roofline import measure_roofline
@@ -25,6 +26,8 @@ def main() -> None:
         measure_roofline(),
         scaling_figures(),
         stack=stack,
+        albedo_work=albedo_work(),
+        albedos=albedo_measurements(),
         flop_per_layer_evaluation=FLOP_PER_LAYER_EVALUATION,
     )
     PAGE.parent.mkdir(exist_ok=True)

@@ -2,17 +2,28 @@
 
 import os
 import platform
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from bench.albedo import AlbedoMeasurement, AlbedoWork
 from bench.roofline import Roofline
 from bench.scaling import Figure
 from bench.stack import BenchStack
 from bench.timing import Measurement, Missing
 
-PACKAGES = ("numpy", "jax", "torch", "tmm", "tmm-fast", "tmm-faster", "pocl-binary-distribution", "pyopencl")
+PACKAGES = (
+    "numpy",
+    "jax",
+    "torch",
+    "mitsuba",
+    "tmm",
+    "tmm-fast",
+    "tmm-faster",
+    "pocl-binary-distribution",
+    "pyopencl",
+)
 
 
 TEMPLATE = """\
@@ -32,6 +43,14 @@ Medians of several runs, from arrays in host memory to arrays in host memory, bo
 ratio is to Nacreous measured right after the program, because a machine is not equally busy all the time.
 Every program is checked before it is timed; its error is the largest difference of R or T from the
 double-precision reference of the tests. Scalar tmm does a part of the samples.
+
+## An albedo table
+
+{albedo_work}
+
+| | seconds | Nacreous is faster by | largest error |
+|---|--:|--:|--:|
+{albedo_rows}
 
 ## Roofline
 
@@ -71,12 +90,16 @@ def render(
     figures: Sequence[Figure],
     *,
     stack: BenchStack,
+    albedo_work: AlbedoWork,
+    albedos: Sequence[AlbedoMeasurement | Missing],
     flop_per_layer_evaluation: float,
 ) -> str:
     """Write the page: the table of programs, our share of the roofline, what scales how, the machine."""
     return TEMPLATE.format(
         work=_work(stack),
         rows="\n".join([*map(_row, pairs), _own_row(ours)]),
+        albedo_work=_albedo_work(albedo_work),
+        albedo_rows="\n".join(_albedo_rows(albedos)),
         device=roofline.device,
         shares=_shares(ours, roofline, stack, flop_per_layer_evaluation),
         flop=flop_per_layer_evaluation,
@@ -103,6 +126,25 @@ def _row(pair: Pair) -> str:
 
 def _own_row(ours: Measurement) -> str:
     return f"| **{ours.name}** | **{_millions(ours)}** | | **{ours.largest_error:.1e}** |"
+
+
+def _albedo_work(work: AlbedoWork) -> str:
+    return (
+        "Albedo of bare rough silver, GGX with separable Smith masking, at "
+        f"{work.roughness.size} roughnesses, {work.cos_theta.size} angles and {work.wavelength_nm.size} "
+        "wavelengths. Each program takes 4096 facets; Nacreous integrates over them once for all wavelengths."
+    )
+
+
+def _albedo_rows(albedos: Sequence[AlbedoMeasurement | Missing]) -> Iterator[str]:
+    """One row a program; the last measured one is ours."""
+    own = [albedo for albedo in albedos if isinstance(albedo, AlbedoMeasurement)][-1]
+    for albedo in albedos:
+        if isinstance(albedo, Missing):
+            yield f"| {albedo.name} | {albedo.reason} | | |"
+            continue
+        ratio = "" if albedo is own else f"{_two_digits(albedo.seconds / own.seconds)} x"
+        yield f"| {albedo.name} | {albedo.seconds:.2g} | {ratio} | {albedo.largest_error:.1e} |"
 
 
 def _shares(ours: Measurement, roofline: Roofline, stack: BenchStack, flop: float) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from bench import complex_recursion, real_recursion
+from bench.albedo import AlbedoMeasurement, albedo_work
 from bench.page import Pair, render
 from bench.roofline import Roofline
 from bench.scaling import Figure
@@ -72,6 +73,8 @@ def test_the_page_states_rates_ratios_and_shares() -> None:
         Roofline("a device", 300e9, 16e9),
         [Figure("a texture", "0.2 s", "0.25 s")],
         stack=bench_stack(),
+        albedo_work=albedo_work(),
+        albedos=[AlbedoMeasurement("renderer", 3.0, 2e-3), AlbedoMeasurement("own", 0.1, 1e-4)],
         flop_per_layer_evaluation=100,
     )
     assert "| theirs | 20 | 15 x | 1.0e-06 |" in page
@@ -79,3 +82,5 @@ def test_the_page_states_rates_ratios_and_shares() -> None:
     assert "| **ours** | **300** | | **2.0e-06** |" in page
     assert "| a texture | 0.2 s | 0.25 s |" in page
     assert "| multiply-adds | 300 GFLOP/s | 30.0 GFLOP/s | 10% |" in page
+    assert "| renderer | 3 | 30 x | 2.0e-03 |" in page
+    assert "| own | 0.1 |  | 1.0e-04 |" in page
