@@ -1,9 +1,10 @@
-"""Small tables that the kernels have really computed, for every test of the formats."""
+"""Small tables for every test of the formats: computed ones, and such that are known at every sample."""
 
 from collections.abc import Callable
 
 import pytest
 
+from analytic_tables import analytic_albedo, analytic_bsdf
 from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 from nacreous.tables.tabulate import tabulate_table
@@ -53,3 +54,28 @@ def opaque(tabulated: Tabulated) -> Table:
 def infrared(tabulated: Tabulated) -> Table:
     """Return a table whose wavelengths span no colour, on both sides of 1,000 nm."""
     return tabulated(wavelength_nm={"start": 900, "stop": 1100, "step": 50})
+
+
+@pytest.fixture(scope="session")
+def albedo() -> Table:
+    """Return a table of albedos over roughness, thickness and angle, known at every sample."""
+    return analytic_albedo()
+
+
+@pytest.fixture(scope="session")
+def bsdf() -> Table:
+    """Return a table of an anisotropic surface's BSDF over all its axes, known at every sample."""
+    return analytic_bsdf()
+
+
+@pytest.fixture(scope="session")
+def computed_albedo(tabulated: Tabulated) -> Table:
+    """Return the albedos of the film on an all but smooth, and on a rough surface."""
+    return tabulated(quantity="albedo", roughness=[0.02, 0.4], thickness_scale=[0.9, 1.0])
+
+
+@pytest.fixture(scope="session")
+def computed_bsdf(tabulated: Tabulated) -> Table:
+    """Return a BSDF of the film over the same angles of incoming and outgoing light."""
+    angles = [0.0, 0.4, 0.8, 1.2]
+    return tabulated(quantity="bsdf", roughness=[0.3], theta_i=angles, theta_o=angles, phi=5)

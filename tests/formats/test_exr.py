@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 import OpenImageIO
 import pytest
 
+from analytic_tables import ALBEDO_AXES, BSDF_AXES, analytic_albedo, known
 from nacreous.errors import FileFormatError
 from nacreous.formats import exr
 from nacreous.tables.spec import Spec
@@ -125,3 +127,108 @@ def test_refuses_a_table_without_colours(infrared: Table, tmp_path: Path) -> Non
     with pytest.raises(FileFormatError, match="R_rgb"):
         exr.write(infrared, tmp_path / "film.exr")
     assert list(tmp_path.iterdir()) == []
+
+
+# ---- rough surfaces ----------------------------------------------------------------------------------------
+
+ONE_TILE = '{"axes": [], "size": 0}'
+
+
+def texel(spec: OpenImageIO.ImageSpec, sample: dict[str, float]) -> tuple[int, int]:
+    """Return row and column of a sample as clients/README.md tells a shader to find them."""
+    row, column = (_texel_along(spec, side, sample) for side in "yx")
+    return row, column
+
+
+def _texel_along(spec: OpenImageIO.ImageSpec, side: str, sample: dict[str, float]) -> int:
+    tiles = json.loads(spec.getattribute(f"nacreous:tiles.{side}") or ONE_TILE)
+    tile = 0
+    for axis in tiles["axes"]:
+        tile = tile * len(axis["values"]) + axis["values"].index(sample[axis["name"]])
+    axis = json.loads(spec.getattribute(f"nacreous:axis.{side}"))
+    return tile * tiles["size"] + _texel_inside(axis, sample[axis["name"]])
+
+
+def _texel_inside(axis: dict[str, Any], value: float) -> int:
+    if axis["mapping"] == "explicit":
+        return axis["values"].index(value)
+    first, last = axis["range"]
+    return round((value - first) / ((last - first) or 1) * (axis["count"] - 1))
+
+
+@pytest.mark.parametrize(("suffix", "name"), [(".exr", "E_r"), (".transmission.exr", "E_t")])
+def test_an_albedo_is_over_angle_and_roughness(albedo: Table, tmp_path: Path, suffix: str, name: str) -> None:
+    """Every sample is where the attributes say: a tile for each thickness, the first at the top."""
+    exr.write(albedo, tmp_path / "film.exr")
+    spec, pixels = opened(tmp_path / f"film{suffix}")
+    assert pixels.shape == (3 * 4, 5, 3)
+    assert spec.getattribute("nacreous:quantity") == name
+    for values in product(*ALBEDO_AXES.values()):
+        sample = dict(zip(ALBEDO_AXES, values, strict=True))
+        expected = [known(f"{name}_rgb", **sample, channel=channel) for channel in range(3)]
+        np.testing.assert_allclose(pixels[texel(spec, sample)], expected, rtol=1e-6)
+
+
+def test_an_albedo_of_one_roughness_has_two_equal_rows(tmp_path: Path) -> None:
+    """As a film of one thickness has, and for the same reason."""
+    table = analytic_albedo(roughness=[0.2], thickness_scale=[0.9, 1.1])
+    exr.write(table, tmp_path / "film.exr")
+    spec, pixels = opened(tmp_path / "film.exr")
+    assert pixels.shape == (4, 5, 3)
+    np.testing.assert_array_equal(pixels[::2], pixels[1::2])
+    assert json.loads(spec.getattribute("nacreous:axis.y"))["count"] == 2
+    assert json.loads(spec.getattribute("nacreous:tiles.y")) == {
+        "axes": [{"name": "thickness_scale", "unit": "1", "values": [0.9, 1.1]}], "count": 2, "size": 2
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(("suffix", "name"), [(".exr", "f_r"), (".transmission.exr", "f_t")])
+def test_a_bsdf_is_an_atlas(bsdf: Table, tmp_path: Path, suffix: str, name: str) -> None:
+    """Every sample of seven axes is where the attributes say."""
+    exr.write(bsdf, tmp_path / "film.exr")
+    spec, pixels = opened(tmp_path / f"film{suffix}")
+    assert pixels.shape == (2 * 3 * 3, 5 * 4, 3)
+    for values in product(*BSDF_AXES.values()):
+        sample = dict(zip(BSDF_AXES, values, strict=True))
+        expected = [known(f"{name}_rgb", **sample, channel=channel) for channel in range(3)]
+        np.testing.assert_allclose(pixels[texel(spec, sample)], expected, rtol=1e-6)
+
+
+def test_a_bsdf_describes_its_tiles(bsdf: Table, tmp_path: Path) -> None:
+    """Names, values and units, how many tiles there are, and how many texels each has."""
+    exr.write(bsdf, tmp_path / "film.exr")
+    spec, _ = opened(tmp_path / "film.exr")
+    assert json.loads(spec.getattribute("nacreous:axis.x")) == {
+        "name": "theta_o", "unit": "rad", "range": [0.0, 1.2], "count": 4, "mapping": "linear"
+    }  # fmt: skip
+    assert json.loads(spec.getattribute("nacreous:tiles.x")) == {
+        "axes": [{"name": "phi", "unit": "rad", "values": [-3.0, -1.5, 0.0, 1.5, 3.0]}], "count": 5, "size": 4
+    }  # fmt: skip
+    down = json.loads(spec.getattribute("nacreous:tiles.y"))
+    assert [axis["name"] for axis in down["axes"]] == ["roughness", "phi_i"]
+    assert (down["count"], down["size"]) == (6, 3)
+
+
+def test_linear_filtering_never_reaches_the_next_tile(albedo: Table, tmp_path: Path) -> None:
+    """Between the centres of a tile's first and last texel, bilinear weights elsewhere are 0."""
+    exr.write(albedo, tmp_path / "film.exr")
+    _, pixels = opened(tmp_path / "film.exr")
+    texels = OpenImageIO.ImageBuf(pixels)
+    for tile, scale in enumerate(ALBEDO_AXES["thickness_scale"]):
+        for roughness, row in ((0.1, 0), (0.5, 3)):
+            v = tile * 4 + row + 0.5
+            found = texels.interppixel(0.5, v)
+            expected = known("E_r_rgb", roughness=roughness, thickness_scale=scale, cos_theta=0, channel=0)
+            assert found[0] == pytest.approx(expected, rel=1e-6)
+
+
+def test_an_all_but_smooth_albedo_has_the_colour_of_the_film(computed_albedo: Table, tmp_path: Path) -> None:
+    """At alpha 0.02 light meets facets within a few degrees of the surface (Wu & Zheng 2015, figure 3).
+
+    The integral is colour-science's over the film of equation 1, at normal incidence and scale 1.
+    """
+    exr.write(computed_albedo, tmp_path / "film.exr")
+    spec, pixels = opened(tmp_path / "film.exr")
+    at = texel(spec, {"roughness": 0.02, "thickness_scale": 1.0, "cos_theta": 1.0})
+    expected = film_colour([1.000277, 2.0, 1.5], [420.0], 1.0)
+    np.testing.assert_allclose(pixels[at], expected, atol=2e-3)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from analytic_tables import known
 from nacreous.formats import png
 from nacreous.formats.srgb import encoded, out_of_gamut, rec709
 from nacreous.tables.table import Table
@@ -59,3 +60,27 @@ def test_other_spaces_show_the_same_colours(tabulated: Callable[..., Table]) -> 
     for space in ("ACEScg", "Rec.2020", "XYZ"):
         table = tabulated(colour={"space": space})
         np.testing.assert_allclose(rec709(table.values("R_rgb"), table.spec.colour), expected, atol=1e-3)
+
+
+def test_a_rough_surface_has_the_atlas_of_the_exr(albedo: Table, bsdf: Table, tmp_path: Path) -> None:
+    """The first tile's last texel: 1 / (2.9 + 0.5 + 0.8 x 0.31 + 0.17), in sRGB (IEC 61966-2-1)."""
+    png.write(albedo, tmp_path / "albedo.png")
+    pixels, texts = picture(tmp_path / "albedo.transmission.png")
+    assert pixels.shape == (3 * 4, 5, 3)
+    assert texts["nacreous:quantity"] == "E_t"
+    linear = known("E_t_rgb", roughness=0.5, thickness_scale=0.8, cos_theta=1, channel=0)
+    assert pixels[3, 4, 0] == round(255 * (1.055 * linear ** (1 / 2.4) - 0.055))
+    png.write(bsdf, tmp_path / "bsdf.png")
+    pixels, texts = picture(tmp_path / "bsdf.png")
+    assert pixels.shape == (2 * 3 * 3, 5 * 4, 3)
+    assert {"nacreous:tiles.x", "nacreous:tiles.y"} <= texts.keys()
+
+
+def test_an_all_but_smooth_surface_looks_like_its_film(
+    computed_albedo: Table, one_thickness: Table, tmp_path: Path
+) -> None:
+    """Head on, at scale 1: roughness 0.02 is the first row of the second tile; two steps of 8 bits apart."""
+    png.write(computed_albedo, tmp_path / "rough.png")
+    png.write(one_thickness, tmp_path / "smooth.png")
+    rough, smooth = (picture(tmp_path / f"{name}.png")[0].astype(int) for name in ("rough", "smooth"))
+    assert np.abs(rough[2, -1] - smooth[0, -1]).max() <= 2

@@ -10,6 +10,7 @@ from nacreous.errors import FileFormatError, SpecError
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS, find_format, format_of, parts_of, write
 from nacreous.formats.verify import verify
+from nacreous.tables.spec import Spec
 from nacreous.tables.table import Part, Table
 
 
@@ -111,3 +112,66 @@ def test_what_is_no_table_is_refused(tmp_path: Path, other: object) -> None:
     """The message says what is expected."""
     with pytest.raises(FileFormatError, match=r"expected a dataset as nacreous\.tabulate returns it"):
         write(other, tmp_path / "film.exr")
+
+
+# ---- quantities --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("quantity", ["albedo", "bsdf"])
+def test_every_quantity_that_a_format_holds_is_good_and_the_same_every_time(
+    request: pytest.FixtureRequest, tmp_path: Path, name: str, quantity: str
+) -> None:
+    """As for a smooth film: equal bytes, and nothing that `verify` finds wrong."""
+    if quantity in FORMATS[FormatName(name)].quantities:
+        surface: Table = request.getfixturevalue(quantity)
+        test_what_is_written_is_good_and_the_same_every_time(surface, tmp_path, name)
+
+
+def test_a_format_that_cannot_hold_a_quantity_is_refused_before_it_is_computed(bsdf: Table) -> None:
+    """The message names option, quantity and the formats that can; a spec is all it takes."""
+    with pytest.raises(
+        SpecError, match=r"bsdf table \(exr, npz, netcdf, csv, png\), got .spectral-exr"
+    ) as refused:
+        parts_of([FORMATS[FormatName.EXR], FORMATS[FormatName.SPECTRAL_EXR]], bsdf.spec)
+    assert refused.value.field == "format"
+
+
+def test_a_table_that_a_format_cannot_hold_is_not_written(bsdf: Table, tmp_path: Path) -> None:
+    """The same refusal for who computes first and writes afterwards."""
+    with pytest.raises(SpecError, match="bsdf"):
+        write(bsdf, tmp_path / "film.spectral.exr")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_csv_ends_where_spreadsheets_do(bsdf: Table) -> None:
+    """2 x 3 x 3 x 4 x 5 samples of 4 wavelengths fit; of 3,000 they are 1,080,000 rows, and do not."""
+    chosen = [FORMATS[FormatName.CSV]]
+    assert parts_of(chosen, bsdf.spec) == {Part.SPECTRUM}
+    fields = bsdf.spec.model_dump(mode="json")
+    fields["table"]["wavelength_nm"] = {"start": 390, "stop": 710, "count": 3000}
+    with pytest.raises(SpecError, match=r"1,000,000 rows as csv, got 1,080,000; npz and netcdf hold it"):
+        parts_of(chosen, Spec.from_document(fields))
+    fields["table"] = {"wavelength_nm": {"start": 390, "stop": 710, "count": 60_000}, "cos_theta": 18}
+    assert parts_of(chosen, Spec.from_document(fields)) == {Part.SPECTRUM}  # of a film, as ever
+
+
+@pytest.mark.parametrize("quantity", ["albedo", "bsdf"])
+def test_writes_what_xarray_holds_of_a_rough_surface(
+    request: pytest.FixtureRequest, tmp_path: Path, quantity: str
+) -> None:
+    """Dimensions and their order survive the way to xarray and back."""
+    surface: Table = request.getfixturevalue(quantity)
+    test_writes_what_xarray_holds(surface, tmp_path)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("quantity", ["albedo", "bsdf"])
+def test_computed_surfaces_are_good_in_every_format_that_holds_them(
+    request: pytest.FixtureRequest, tmp_path: Path, name: str, quantity: str
+) -> None:
+    """Axes, id, certificate and energy are what `verify` expects of the spec."""
+    if quantity in FORMATS[FormatName(name)].quantities:
+        computed: Table = request.getfixturevalue(f"computed_{quantity}")
+        files = write(computed, tmp_path / f"film{FORMATS[FormatName(name)].suffix}")
+        assert [verify(file).problems for file in files] == [()] * len(files)

@@ -8,6 +8,8 @@ import numpy as np
 import OpenEXR
 import pytest
 
+from analytic_tables import known
+from nacreous.errors import FileFormatError
 from nacreous.formats import spectral_exr
 from nacreous.tables.table import Table
 from reference import film
@@ -77,3 +79,34 @@ def test_a_table_beyond_the_visible_has_no_preview(infrared: Table, tmp_path: Pa
     np.testing.assert_array_equal(
         spectral_exr.read(files[0]).arrays["R"][:1], mean
     )  # our own reader sorts them
+
+
+@pytest.mark.parametrize(
+    ("suffix", "name"), [(".spectral.exr", "E_r"), (".transmission.spectral.exr", "E_t")]
+)
+def test_holds_the_spectra_of_an_albedo(albedo: Table, tmp_path: Path, suffix: str, name: str) -> None:
+    """A share of the light is what a reflective layer holds; tiles of thickness lie one below the other."""
+    spectral_exr.write(albedo, tmp_path / "film.spectral.exr")
+    wavelength_nm, values, specification = spectra(tmp_path / f"film{suffix}")
+    assert not specification.is_emissive
+    assert values.shape == (3 * 4, 5, 4)
+    at = {"roughness": 0.4, "thickness_scale": 1.2, "cos_theta": 0.25}
+    expected = [known(name, **at, wavelength_nm=nm) for nm in wavelength_nm]
+    np.testing.assert_allclose(values[2 * 4 + 2, 1], expected, rtol=1e-6)
+
+
+def test_an_all_but_smooth_albedo_has_the_reflectance_of_equation_1(
+    computed_albedo: Table, tmp_path: Path
+) -> None:
+    """Roughness 0.02 at scale 1, the third row, head on; against the sum of beams of Wu & Zheng 2015."""
+    spectral_exr.write(computed_albedo, tmp_path / "film.spectral.exr")
+    wavelength_nm, values, _ = spectra(tmp_path / "film.spectral.exr")
+    at = film([1.000277, 2.0, 1.5], [420.0], wavelength_nm, np.ones(1))
+    np.testing.assert_allclose(values[2, -1], (at.R_s[0] + at.R_p[0]) / 2, atol=2e-3)
+
+
+def test_has_no_layer_for_a_bsdf(bsdf: Table, tmp_path: Path) -> None:
+    """The layout's layers are shares or radiances; the message names the formats that hold it."""
+    with pytest.raises(FileFormatError, match="got bsdf; npz, netcdf and exr hold it"):
+        spectral_exr.write(bsdf, tmp_path / "film.spectral.exr")
+    assert list(tmp_path.iterdir()) == []

@@ -17,6 +17,8 @@ from nacreous.formats.names import FormatName
 from nacreous.formats.openexr import read_part, write_part
 from nacreous.formats.registry import FORMATS, write
 from nacreous.formats.verify import verify
+from nacreous.tables.identity import table_id
+from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 
 NAMES = list(FORMATS)
@@ -151,6 +153,102 @@ def test_finds_an_axis_that_is_not_the_specs(table: Table, tmp_path: Path, name:
     coords = {**table.coords, axis: replace(table.coords[axis], values=table.values(axis) * 0.99)}
     write(replace(table, coords=coords), path)
     assert verify(path).problems == (f"{axis}: expected the axis of the spec, got another",)
+
+
+# ---- rough surfaces ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("name", "least"), [("E_r", 1.5), ("E_t_mean", 1.5), ("E_r", -0.1)])
+def test_finds_an_albedo_that_is_no_share(albedo: Table, tmp_path: Path, name: str, least: float) -> None:
+    """A passive surface gives back at most what falls on it, and at least nothing."""
+    values = np.full_like(albedo.values(name), least)
+    found = verify(lying(albedo, tmp_path / "film.npz", {name: values}))
+    assert any(problem.startswith(f"{name}: expected a share from 0 to 1") for problem in found.problems)
+
+
+def test_an_albedo_may_miss_1_by_its_quadrature(albedo: Table, tmp_path: Path) -> None:
+    """E_r + E_t <= 1 + 1e-3: an integral over directions is not as exact as a film."""
+    E_r = np.full_like(albedo.values("E_r"), 0.6)
+    E_t = np.full_like(albedo.values("E_t"), 0.4 + 8e-4)
+    assert verify(lying(albedo, tmp_path / "film.npz", {"E_r": E_r, "E_t": E_t})).good
+    found = verify(lying(albedo, tmp_path / "film.npz", {"E_r": E_r, "E_t": E_t + np.float32(4e-4)}))
+    assert found.problems == ("E_r + E_t: expected at most 1, got 1.0012",)
+
+
+def test_finds_an_albedo_beyond_one_in_a_spectral_picture(albedo: Table, tmp_path: Path) -> None:
+    """Channels are shares as well."""
+    values = np.full_like(albedo.values("E_r"), 1.01)
+    found = verify(lying(albedo, tmp_path / "film.spectral.exr", {"E_r": values}))
+    assert found.problems == ("E_r: expected a share from 0 to 1, got 1.01 to 1.01",)
+
+
+@pytest.mark.parametrize(("factor", "good"), [(1e4, True), (-1.0, False), (np.nan, False), (np.inf, False)])
+def test_a_bsdf_is_finite_and_not_negative(bsdf: Table, tmp_path: Path, factor: float, good: bool) -> None:  # noqa: FBT001 - a parameter of the test
+    """It has no largest value: a mirror's is infinite, a lobe's as high as it is narrow."""
+    values = bsdf.values("f_t") * np.float32(factor)
+    assert verify(lying(bsdf, tmp_path / "film.nc", {"f_t": values})).good == good
+
+
+@pytest.mark.parametrize(
+    ("attributes", "problem"),
+    [
+        (
+            {"axis.x": '{"count": 3}'},
+            "axis.x times nacreous:tiles.x: expected 20 texels as f_r_rgb has, got 15",
+        ),
+        (
+            {"tiles.x": '{"count": 4}'},
+            "axis.x times nacreous:tiles.x: expected 20 texels as f_r_rgb has, got 16",
+        ),
+        ({"tiles.y": "[]"}, "tiles.y: expected 18 texels as f_r_rgb has, got None"),
+        ({"tiles.y": '{"count": 6}'}, "nacreous:tiles.y: expected roughness, phi_i as the spec has it"),
+        ({"axis.y": '{"count": 3}'}, "nacreous:axis.y: expected theta_i as the spec has it"),
+        ({"quantity": "E_r"}, 'nacreous:quantity: expected f_r or f_t, as the spec says, got "E_r"'),
+        ({"certificate": "{}"}, "nacreous:certificate: expected the figures"),
+    ],
+)
+def test_finds_an_atlas_that_does_not_hold(
+    bsdf: Table, tmp_path: Path, attributes: dict[str, str], problem: str
+) -> None:
+    """A shader finds its texels by these attributes alone."""
+    found = verify(resealed_exr(bsdf, tmp_path / "film.exr", **attributes))
+    assert any(problem in message for message in found.problems)
+
+
+@pytest.mark.parametrize("key", ["axis.x", "axis.y", "tiles.x", "tiles.y"])
+def test_finds_an_attribute_of_an_atlas_that_is_gone(bsdf: Table, tmp_path: Path, key: str) -> None:
+    """Without one of them nobody can read it."""
+    found = verify(changed_exr(bsdf, tmp_path / "film.exr", **{key: None}))
+    assert f"expected the attributes nacreous:{key}, got none" in found.problems
+
+
+@pytest.mark.parametrize("axis", ["roughness", "phi_i", "theta_i", "theta_o", "phi"])
+@pytest.mark.parametrize("suffix", [".npz", ".exr"])
+def test_finds_angles_that_are_not_the_specs(bsdf: Table, tmp_path: Path, suffix: str, axis: str) -> None:
+    """As arrays and as the description of tiles."""
+    coords = {**bsdf.coords, axis: replace(bsdf.coords[axis], values=bsdf.values(axis) * 0.99)}
+    write(replace(bsdf, coords=coords), tmp_path / f"film{suffix}")
+    (problem,) = verify(tmp_path / f"film{suffix}").problems
+    assert axis in problem
+    assert "spec" in problem
+
+
+def test_a_refined_albedo_keeps_the_ends_of_its_axes(albedo: Table, tmp_path: Path) -> None:
+    """Between them refinement puts what it likes; other ends are another table."""
+    fields = albedo.spec.model_dump(mode="json") | {"accuracy": {"delta_e": 1.0}}
+    spec = Spec.from_document(fields)
+    provenance = {**albedo.provenance, "id": table_id(spec), "spec": spec.model_dump_json()}
+    finer = replace(albedo, spec=spec, provenance=provenance)
+    for path in (tmp_path / "finer.exr", tmp_path / "finer.npz"):
+        write(_over(finer, [0.8, 1.01, 1.2]), path)
+        assert verify(path).problems == ()
+        write(_over(finer, [0.8, 1.0, 1.3]), path)
+        assert len(verify(path).problems) == 1
+
+
+def _over(table: Table, thickness_scale: list[float]) -> Table:
+    axis = replace(table.coords["thickness_scale"], values=np.array(thickness_scale))
+    return replace(table, coords={**table.coords, "thickness_scale": axis})
 
 
 # ---- changed after it was written --------------------------------------------------------------------------

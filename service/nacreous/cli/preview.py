@@ -22,6 +22,9 @@ def preview(
     The swatch runs over angle and thickness, and so does the path of the chromaticity: angle 0 at the left,
     thickness upwards. The files of `nacreous tabulate --format exr` have grazing incidence, cos_theta = 0, at
     the left, and the first thickness in the top row.
+
+    A rough surface, that of a spec with [surface] or with the quantity albedo or bsdf, adds its lobes in the
+    plane of incidence, at 0, 30 and 60 degrees, and the colour of its albedo over roughness.
     """
     import logging
 

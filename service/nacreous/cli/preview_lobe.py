@@ -23,22 +23,21 @@ LOBE_SCALE = "radius: f cos θ, logarithmic, a ring for a factor of 10; the oute
 _DECADES = 4
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 """Y of linear Rec.709 (ITU-R BT.709-6)."""
-_LARGEST = 1.12
-"""Half the width of a panel, in radii."""
+_LARGEST, _BELOW = 1.12, 0.02
+"""Half the width of a panel, and how far one without transmission goes below the surface, in radii."""
 
 
 def draw_lobes(panels: "Sequence[Axes]", tables: RoughTables) -> None:
     """Draw a lobe for each angle of incidence, reflection up and any transmission down."""
     reflected, transmitted = (_profile(tables, name) for name in ("f_r_rgb", "f_t_rgb"))
     brightest = max(float((side @ _LUMINANCE).max()) for side in (reflected, transmitted) if side.size)
-    down = transmitted.size > 0
     for at, (axes, angle) in enumerate(zip(panels, LOBE_ANGLES, strict=True)):
-        _draw_rings(axes, down=down)
-        _draw_lobe(axes, _angles(tables), reflected[at], brightest, upwards=1)
-        if down:
-            _draw_lobe(axes, _angles(tables), transmitted[at], brightest, upwards=-1)
+        _draw_rings(axes)
+        _draw_lobe(axes, _angles(tables), reflected[at], brightest)
+        if transmitted.size:
+            _draw_lobe(axes, np.pi - _angles(tables), transmitted[at], brightest)
         _draw_incidence(axes, angle)
-        _dress(axes, angle, down=down)
+        _dress(axes, angle, -_LARGEST if transmitted.size else -_BELOW)
 
 
 def _angles(tables: RoughTables) -> FloatArray:
@@ -66,26 +65,24 @@ def _radius(colours: FloatArray, brightest: float) -> FloatArray:
     return np.asarray(np.log10(luminance / least) / _DECADES)
 
 
-def _draw_lobe(
-    axes: "Axes", angles: FloatArray, colours: FloatArray, brightest: float, *, upwards: int
-) -> None:
-    """Draw a lobe whose every direction has its colour, at equal brightness."""
+def _draw_lobe(axes: "Axes", angles: FloatArray, colours: FloatArray, brightest: float) -> None:
+    """Draw a lobe whose every direction has its colour, at equal brightness; angles from the normal up."""
     from matplotlib.collections import PolyCollection
 
     radius = _radius(colours, brightest)
-    outline = radius[:, None] * np.stack([np.sin(angles), upwards * np.cos(angles)], axis=-1)  # (2 N, 2)
+    outline = radius[:, None] * np.stack([np.sin(angles), np.cos(angles)], axis=-1)  # (2 N, 2)
     wedges = np.stack([np.zeros_like(outline[:-1]), outline[:-1], outline[1:]], axis=1)
     shades = encoded(colours / np.maximum(colours.max(axis=-1, keepdims=True), 1e-12))[:-1] / 255
     axes.add_collection(PolyCollection(list(wedges), facecolors=shades, edgecolors=shades, linewidths=0.4))
     axes.plot(outline[:, 0], outline[:, 1], color=INK, linewidth=0.9)
 
 
-def _draw_rings(axes: "Axes", *, down: bool) -> None:
-    turn = np.linspace(0, 2 * np.pi if down else np.pi, 181)
+def _draw_rings(axes: "Axes") -> None:
+    turn = np.linspace(0, 2 * np.pi, 181)
     for ring in range(1, _DECADES + 1):
         r = ring / _DECADES
         axes.plot(r * np.cos(turn), r * np.sin(turn), color="#e6e8eb", linewidth=0.8, zorder=0)
-    axes.plot([0, 0], [-_LARGEST if down else 0, _LARGEST], color="#e6e8eb", linewidth=0.8, zorder=0)
+    axes.plot([0, 0], [-_LARGEST, _LARGEST], color="#e6e8eb", linewidth=0.8, zorder=0)
 
 
 def _draw_incidence(axes: "Axes", angle: float) -> None:
@@ -93,17 +90,17 @@ def _draw_incidence(axes: "Axes", angle: float) -> None:
     from_left = np.array([-np.sin(np.deg2rad(angle)), np.cos(np.deg2rad(angle))])
     arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": INK, "linewidth": 1.1, "shrinkA": 0, "shrinkB": 0}
     axes.plot([-_LARGEST, _LARGEST], [0, 0], color=INK, linewidth=1.4, zorder=3)
-    axes.annotate("", 0.78 * from_left, 1.1 * from_left, arrowprops=arrow, zorder=4)
+    head, tail = (tuple((radius * from_left).tolist()) for radius in (0.78, 1.1))
+    axes.annotate("", head, tail, arrowprops=arrow, zorder=4)
 
 
-def _dress(axes: "Axes", angle: float, *, down: bool) -> None:
+def _dress(axes: "Axes", angle: float, lowest: float) -> None:
     axes.set_aspect("equal", adjustable="box")
     axes.set_anchor("N")
     axes.set_xlim(-_LARGEST, _LARGEST)
-    axes.set_ylim(-_LARGEST if down else -0.08, _LARGEST + 0.02)
+    axes.set_ylim(lowest, _LARGEST)
     axes.set_axis_off()
-    axes.text(_LARGEST, 0.98, f"{angle:g}°", size=11, color=INK, weight="bold", ha="right", va="top")
-    style: dict[str, Any] = {"size": 8.5, "color": FAINT, "ha": "right"}
-    axes.text(_LARGEST, 0.04, "R", va="bottom", **style)
-    if down:
-        axes.text(_LARGEST, -0.04, "T", va="top", **style)
+    style: dict[str, Any] = {"ha": "right", "clip_on": True}
+    axes.text(_LARGEST, 0.98, f"{angle:g}°", size=11, color=INK, weight="bold", va="top", **style)
+    axes.text(_LARGEST, 0.04, "R", size=8.5, color=FAINT, va="bottom", **style)
+    axes.text(_LARGEST, -0.04, "T", size=8.5, color=FAINT, va="top", **style)

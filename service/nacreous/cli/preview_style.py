@@ -2,10 +2,13 @@
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["FAINT", "INK", "PAD", "dress", "note"]
+__all__ = ["FAINT", "INK", "PAD", "dress", "exposed", "note"]
 
 INK = "#22262b"
 FAINT = "#8a9099"
@@ -23,6 +26,12 @@ def dress(axes: "Axes", title: str, x: str, y: str, pad: float = PAD) -> None:
         axes.spines[side].set_visible(False)
     for side in ("left", "bottom"):
         axes.spines[side].set_color(FAINT)
+
+
+def exposed(colours: NDArray[np.float64], exposure: int) -> NDArray[np.float64]:
+    """Brighten colours by stops; one that becomes too bright keeps its hue, which clipping would change."""
+    bright = colours * 2.0**exposure
+    return np.asarray(bright / np.maximum(bright.max(axis=-1, keepdims=True), 1))
 
 
 def note(axes: "Axes", text: str, pad: float = PAD) -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from nacreous.errors import SpecError
 from nacreous.opencl.tiles import Observer
+from nacreous.optics.stack import sample_stack
 from nacreous.optics.surface import MAX_ALPHA, MIN_ALPHA, Surface, alphas_at, exponent_of
 from nacreous.tables.spec import Spec, roughness_values, surface_of
 from nacreous.tables.table import Part, Table
@@ -22,13 +23,18 @@ SpecOver = Callable[..., Spec]
 
 LOBE_ANGLES = (0.0, 30.0, 60.0)
 """Degrees of incidence at which a lobe is drawn."""
-STRIP_ANGLES = np.linspace(89.0, 0.0, 90)
+STRIP_ANGLES = np.linspace(89.0, 0.0, 24)
 """Degrees of the roughness strip's columns, grazing first; their cosines ascend."""
 
-_OUTGOING = {"start": 0.0, "stop": math.radians(89.6), "count": 449}
-"""Steps of 0.2 degrees, which the angles of incidence are multiples of: a narrow lobe has its peak."""
+_WIDE = np.deg2rad(np.linspace(0.0, 89.5, 180))
+_AROUND_PEAK = np.linspace(-6, 6, 49)
+"""Where a lobe is looked at besides, in units of its roughness."""
+_NM = 550.0
+"""Vacuum wavelength whose refraction says where a lobe of transmission is."""
 _STRIP = (0.02, 1.0)
-_STRIP_COUNT = 50
+_STRIP_COUNT = 12
+_OF_EXPONENTS = frozenset({"ashikhmin-shirley", "blinn", "phong"})
+"""Distributions that are powers of a cosine."""
 _ASSUMED_ROUGHNESS = 0.2
 """Where neither the surface nor the table says one."""
 
@@ -52,6 +58,11 @@ class RoughTables:
     roughness: float
     lobes: Table
     strip: Table
+
+    @property
+    def transmits(self) -> bool:
+        """Whether light goes through, so that there are lobes below the surface."""
+        return "f_t_rgb" in self.lobes.variables
 
 
 def is_rough(spec: Spec) -> bool:
@@ -78,7 +89,7 @@ def rough_tables(
         "bsdf",
         roughness=[roughness],
         theta_i=np.deg2rad(LOBE_ANGLES).tolist(),
-        theta_o=_OUTGOING,
+        theta_o=_outgoing(spec, roughness).tolist(),
         phi=[0.0, math.pi],
         **({"phi_i": [0.0]} if surface_of(spec).anisotropic else {}),
     )
@@ -95,6 +106,17 @@ def _lobe_roughness(spec: Spec) -> float:
     own = surface_of(spec).roughness
     known = roughness_values(spec) if own is None else np.array([own])
     return float(known[known.size // 2]) if known.size else _ASSUMED_ROUGHNESS
+
+
+def _outgoing(spec: Spec, roughness: float) -> FloatArray:
+    """Return angles of outgoing light, (O,): all over, and close together where narrow lobes peak."""
+    alpha_x = alphas_at(surface_of(spec), np.array([roughness]))[0, 0]
+    index = sample_stack(spec.stack, np.array([_NM])).index.real[:, 0]  # incident medium first
+    theta_i = np.deg2rad(LOBE_ANGLES)
+    refracted = np.arcsin(np.minimum(np.sin(theta_i) * index[0] / index[-1], 1))
+    peaks = np.concatenate([theta_i, refracted])
+    around = (peaks[:, None] + alpha_x * _AROUND_PEAK).ravel()
+    return np.unique(np.clip(np.concatenate([_WIDE, peaks, around]), 0, _WIDE[-1]).round(7))
 
 
 def _strip(spec: Spec, over: SpecOver, observer: Observer | None) -> Table:
@@ -121,19 +143,22 @@ def _strip_roughness(spec: Spec) -> list[float]:
 def surface_line(tables: RoughTables) -> str:
     """Return distribution, roughness and masking of the lobes, on one line."""
     surface = tables.surface
-    alphas = alphas_at(surface, np.array([tables.roughness]))[0]
-    along = alphas if surface.anisotropic else alphas[:1]
-    alpha = " x ".join(f"{value:.3g}" for value in along)
-    exponent = " x ".join(f"{exponent_of(value):.4g}" for value in along)
-    terms = [
-        surface.distribution,
-        f"alpha {alpha} (exponent {exponent})",
-        f"{surface.masking} masking",
-        *(
-            [f"diffuse {surface.diffuse_weight * surface.diffuse_reflectance:g}"]
-            if surface.diffuse_weight
-            else []
-        ),
-        *([surface.multiple_scattering] if surface.multiple_scattering != "none" else []),
-    ]
-    return ", ".join(terms)
+    diffuse = surface.diffuse_weight * surface.diffuse_reflectance
+    terms = {
+        surface.distribution: True,
+        _roughness_term(tables): True,
+        f"{surface.masking} masking": True,
+        f"diffuse {diffuse:g}": diffuse > 0,
+        surface.multiple_scattering: surface.multiple_scattering != "none",
+        "in the plane of x": surface.anisotropic,
+    }
+    return ", ".join(term for term, applies in terms.items() if applies)
+
+
+def _roughness_term(tables: RoughTables) -> str:
+    alphas = alphas_at(tables.surface, np.array([tables.roughness]))[0]
+    along = alphas if tables.surface.anisotropic else alphas[:1]
+    alpha = "alpha " + " x ".join(f"{value:.3g}" for value in along)
+    if tables.surface.distribution not in _OF_EXPONENTS:
+        return alpha
+    return f"{alpha} (exponent {' x '.join(f'{exponent_of(value):.4g}' for value in along)})"

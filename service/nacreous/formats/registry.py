@@ -164,8 +164,8 @@ def check_holds(chosen: Format, spec: Spec) -> None:
     """Refuse a format that cannot hold the table of `spec`; raises `SpecError` with those that can."""
     quantity = spec.table.quantity
     if quantity not in chosen.quantities:
-        able = [entry.name for entry in _ALL if quantity in entry.quantities]
-        raise SpecError("format", f"one that holds a {quantity} table, {', '.join(able)}", f'"{chosen.name}"')
+        able = ", ".join(entry.name for entry in _ALL if quantity in entry.quantities)
+        raise SpecError("format", f"one that holds a {quantity} table ({able})", f'"{chosen.name}"')
     chosen.check(spec)
 
 
