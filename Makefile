@@ -13,7 +13,7 @@ BIN := $(VENV)/bin
 export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 PIP_INSTALL := -m pip --disable-pip-version-check --no-input install --quiet
 
-.PHONY: help run test check bench docs clean llvm
+.PHONY: help run test check bench docs clean
 .DELETE_ON_ERROR:
 
 help:
@@ -30,7 +30,7 @@ run: $(VENV)/.installed
 	@echo 'Picture of it:'
 	@$(BIN)/nacreous preview $(PRESET) -o out/$(subst /,-,$(PRESET)).png
 
-test: $(VENV)/.group-test llvm
+test: $(VENV)/.group-test $(VENV)/.llvm
 	$(BIN)/python -m pytest
 
 check: $(VENV)/.group-check
@@ -43,7 +43,7 @@ docs: $(VENV)/.group-test
 	$(BIN)/python -m pytest tests/test_documentation.py
 	$(BIN)/python docs/make_images.py
 
-bench: $(BENCH_VENV)/.group-$(BENCH_GROUP) llvm
+bench: $(BENCH_VENV)/.group-$(BENCH_GROUP) $(BENCH_VENV)/.llvm
 	PYTHONPATH=tests $(BENCH_VENV)/bin/python -m bench
 
 clean:
@@ -68,9 +68,9 @@ $(VENV)/.made $(BENCH_VENV)/.made:
 	@touch $@
 
 # Mitsuba's vectorised variants compile with LLVM; without it the tests against them are skipped.
-llvm:
-	@$(call debian,$(PYTHON) -c 'import ctypes; ctypes.CDLL("libLLVM.so.19.1")',libllvm19) || \
-	    echo 'Mitsuba needs LLVM for its vectorised variants: install the package libllvm19' >&2
+$(VENV)/.llvm $(BENCH_VENV)/.llvm: %/.llvm: %/.made
+	@if $(call debian,$(PYTHON) -c 'import ctypes; ctypes.CDLL("libLLVM.so.19.1")',libllvm19); then touch $@; \
+	    else echo 'Mitsuba needs LLVM for its vectorised variants: install the package libllvm19' >&2; fi
 
 $(VENV)/.installed $(BENCH_VENV)/.installed: %/.installed: %/.made pyproject.toml
 	@echo 'Installing Nacreous into $* ...'
