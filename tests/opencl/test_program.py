@@ -2,6 +2,7 @@
 
 import shutil
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -45,3 +46,27 @@ def test_a_fault_is_found_by_file_and_line(
         kernel_of(device, build)
     assert f"complex.clh:{len(lines) - 1}:" in str(refused.value)
     assert told in str(refused.value)
+
+
+LANES = (1, 4, 8, 16)
+FACET_NUMBERS = [
+    (("DISTRIBUTION", distribution), ("MASKING", masking), ("AREA_COSINES", 257), ("AREA_AZIMUTHS", 17))
+    for distribution, masking in product(range(5), range(3))
+]
+"""Of kernels/microfacet.clh: five distributions, three maskings."""
+
+
+@pytest.mark.parametrize("numbers", FACET_NUMBERS)
+def test_facets_build_in_every_way(numbers: tuple[tuple[str, int], ...], device: Device) -> None:
+    """Every distribution and masking in both precisions and every lane width: no warning, 120 kernels."""
+    for precision, lanes in product(Precision, LANES):
+        kernel_of(device, Build("microfacets", precision, lanes, numbers))
+
+
+@pytest.mark.parametrize("kernel", ["microfacet_area", "albedo_weights", "bsdf", "bsdf_colour"])
+def test_rough_kernels_build_in_every_width(kernel: str, device: Device) -> None:
+    """Both precisions, every lane width, both sides; of all that facets can be, a few."""
+    ways = list(product(Precision, LANES, (0, 1)))
+    for way, (precision, lanes, transmission) in enumerate(ways):
+        numbers = (*FACET_NUMBERS[7 * way % len(FACET_NUMBERS)], ("TRANSMISSION", transmission))
+        kernel_of(device, Build(kernel, precision, lanes, numbers))

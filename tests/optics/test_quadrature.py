@@ -8,7 +8,7 @@ from nacreous.optics.quadrature import gauss_legendre
 
 @pytest.mark.parametrize("count", [1, 2, 7, 24, 128])
 def test_polynomials_are_integrated_exactly(count: int) -> None:
-    """Abramowitz & Stegun 25.4.29: of n nodes, exact up to degree 2 n - 1; x^k has the integral 1 / (k + 1)."""
+    """Abramowitz & Stegun 25.4.29: n nodes are exact up to degree 2 n - 1; of x^k it is 1 / (k + 1)."""
     nodes, weights = gauss_legendre(count)
     for degree in range(2 * count):
         assert weights @ nodes**degree == pytest.approx(1 / (degree + 1), rel=1e-11), degree

@@ -42,6 +42,36 @@ def test_everything_else_matters(sections: dict[str, object]) -> None:
     assert _id(**sections) != _id()
 
 
+@pytest.mark.parametrize(
+    "surface",
+    [
+        {"alpha_x": 0.31},
+        {"alpha_y": 0.4},
+        {"distribution": "ggx"},
+        {"masking": "smith"},
+        {"specular_weight": 0.9},
+        {"diffuse_weight": 0.1},
+        {"diffuse_reflectance": 0.1},
+        {"multiple_scattering": "kulla-conty"},
+    ],
+)
+def test_all_of_a_surface_matters(surface: dict[str, object]) -> None:
+    """Any field of it changes the id of an albedo."""
+
+    def of(fields: dict[str, object]) -> str:
+        return _id(table={"quantity": "albedo"}, surface={"alpha_x": 0.3} | fields)
+
+    assert of(surface) != of({})
+
+
+@pytest.mark.parametrize("axis", [{"quantity": "bsdf"}, {"roughness": [0.3, 0.4]}, {"cos_theta": 65}])
+def test_what_is_tabulated_of_a_surface_matters(axis: dict[str, object]) -> None:
+    """The quantity, and each of its axes."""
+    surface = {"alpha_x": 0.3}
+    before = _id(table={"quantity": "albedo"}, surface=surface)
+    assert _id(table={"quantity": "albedo"} | axis, surface=surface) != before
+
+
 def test_a_materials_data_matters(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same name with other n and k is another table: the sampled indices are hashed."""
     from nacreous.optics import stack
