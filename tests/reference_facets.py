@@ -146,7 +146,6 @@ def _area_spline(surface: Surface) -> tuple[RectBivariateSpline, float]:
 def _power_area(surface: Surface, cos: FloatArray, azimuth: float) -> FloatArray:
     """Projected area of equation 11 towards (cos, azimuth): exact over the tilt, Gauss over the azimuth.
 
-    Up to there the integrals of cos^e sin^2 and cos^(e + 1) sin are an incomplete beta function, a power.
     Up to there the integrals of cos^e sin^2 and cos^(e + 1) sin are an incomplete beta function and a power.
     """
     e_x, e_y = surface.exponents

@@ -128,16 +128,18 @@ def kulla_conty(E_i: ArrayLike, E_o: ArrayLike, E_mean: ArrayLike, F_mean: Array
 def white_albedo(surface: Surface, cos_theta_i: float, nodes: int = 512) -> float:
     """Directional albedo E of D and G alone, by midpoints of the facets that `sample_reflection` gives.
 
-    An anisotropic surface is lit from 32 azimuths of a quarter turn; the other quarters mirror it.
+    They are dense in the square root of the share of steeper facets, of which GGX has a long tail. An
+    anisotropic surface is lit from 32 azimuths of a quarter turn; the other quarters mirror it.
     """
     azimuths = 1 if surface.alpha_x == surface.alpha_y else 32
-    turn, tilt, phi = ((np.arange(count) + 0.5) / count for count in (nodes, nodes, azimuths))
-    u = np.array(np.meshgrid(tilt, turn, phi / 4, indexing="ij"))
+    turn, rest, phi = ((np.arange(count) + 0.5) / count for count in (nodes, nodes, azimuths))
+    u = np.array(np.meshgrid(1 - rest**2, turn, phi / 4, indexing="ij"))
+    share = 2 * np.sqrt(1 - u[0])  # of a midpoint; the mean is 1
     i = _incident(cos_theta_i, u[2])
     o = sample_reflection(surface, i, u[:2])
     upper = o[..., 2] > 0
     i, o = i[upper], o[upper]
-    weights = white_f_r(surface, i, o) * o[..., 2] / reflection_pdf(surface, i, o)
+    weights = share[upper] * white_f_r(surface, i, o) * o[..., 2] / reflection_pdf(surface, i, o)
     return float(weights.sum() / u[0].size)
 
 

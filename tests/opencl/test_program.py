@@ -56,6 +56,31 @@ FACET_NUMBERS = [
 """Of kernels/microfacet.clh: five distributions, three maskings."""
 
 
+FILM_NUMBERS = {
+    "film": ("INCOHERENT", "PERIODIC"),
+    "film_colour": ("INCOHERENT", "PERIODIC", "TRANSMISSION"),
+    "film_ellipsometry": ("INCOHERENT", "PERIODIC"),
+}
+ROUGH_KERNELS = ("microfacet_area", "albedo_weights", "bsdf", "bsdf_colour")
+
+
+def test_every_kernel_is_built_here() -> None:
+    """A new kernel must be added below."""
+    assert sorted([*FILM_NUMBERS, *ROUGH_KERNELS, "microfacets"]) == sources.kernel_names()
+
+
+@pytest.mark.parametrize("kernel", FILM_NUMBERS)
+@pytest.mark.parametrize("precision", Precision)
+@pytest.mark.parametrize("lanes", LANES)
+def test_film_kernels_build_without_a_warning(
+    kernel: str, precision: Precision, lanes: int, device: Device
+) -> None:
+    """With -Werror, for every precision and lane width; the options on and off."""
+    for switch in (0, 1):
+        numbers = (*((name, switch) for name in FILM_NUMBERS[kernel]), ("MEDIA", 4))
+        assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel
+
+
 @pytest.mark.parametrize("numbers", FACET_NUMBERS)
 def test_facets_build_in_every_way(numbers: tuple[tuple[str, int], ...], device: Device) -> None:
     """Every distribution and masking in both precisions and every lane width: no warning, 120 kernels."""
@@ -63,7 +88,7 @@ def test_facets_build_in_every_way(numbers: tuple[tuple[str, int], ...], device:
         kernel_of(device, Build("microfacets", precision, lanes, numbers))
 
 
-@pytest.mark.parametrize("kernel", ["microfacet_area", "albedo_weights", "bsdf", "bsdf_colour"])
+@pytest.mark.parametrize("kernel", ROUGH_KERNELS)
 def test_rough_kernels_build_in_every_width(kernel: str, device: Device) -> None:
     """Both precisions, every lane width, both sides; of all that facets can be, a few."""
     ways = list(product(Precision, LANES, (0, 1)))

@@ -1,4 +1,4 @@
-"""Kernel sources: includes, line numbers, and that everything builds."""
+"""Kernel sources: includes and line numbers."""
 
 from pathlib import Path
 
@@ -10,12 +10,6 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.paths import KERNELS
-
-NUMBERS = {
-    "film": ("INCOHERENT", "PERIODIC"),
-    "film_colour": ("INCOHERENT", "PERIODIC", "TRANSMISSION"),
-    "film_ellipsometry": ("INCOHERENT", "PERIODIC"),
-}
 
 
 def test_every_include_is_expanded() -> None:
@@ -30,18 +24,6 @@ def test_every_header_belongs_to_a_kernel() -> None:
     """A header that no kernel includes is dead."""
     text = "".join(map(sources.complete_source, sources.kernel_names()))
     assert all(f'"{header.name}"' in text for header in KERNELS.glob("*.clh"))
-
-
-@pytest.mark.parametrize("kernel", sources.kernel_names())
-@pytest.mark.parametrize("precision", Precision)
-@pytest.mark.parametrize("lanes", [1, 4, 8, 16])
-def test_every_kernel_builds_without_a_warning(
-    kernel: str, precision: Precision, lanes: int, device: Device
-) -> None:
-    """With -Werror, for every precision and lane width; the options on and off."""
-    for switch in (0, 1):
-        numbers = (*((name, switch) for name in NUMBERS[kernel]), ("MEDIA", 4))
-        assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel
 
 
 def test_a_compile_error_names_file_and_line(

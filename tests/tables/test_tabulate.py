@@ -22,18 +22,25 @@ def _spec(layers: list[dict[str, object]], **table: object) -> Spec:
 LAYER: dict[str, object] = {"material": {"n": 2.0}, "thickness_nm": 420}
 
 
+QUANTITIES = {"fresnel": ("R_s", "R_p", "T_s", "T_p"), "albedo": ("E_r", "E_t")}
+
+
 @pytest.mark.parametrize("name", preset_names())
 def test_every_preset_is_a_table(name: str) -> None:
     """Finite, within [0, 1], of the shape that its axes say, with a certificate and an id."""
-    table = tabulate_table(preset(name))
-    shape = tuple(table.values(axis).size for axis in ("thickness_scale", "cos_theta", "wavelength_nm"))
-    for quantity in ("R_s", "R_p", "T_s", "T_p"):
+    spec = preset(name)
+    table = tabulate_table(spec)
+    for quantity in QUANTITIES[spec.table.quantity]:
         values = table.values(quantity)
-        assert values.shape == shape
+        dims = table.variables[quantity].dims
+        assert dims[-3:] == ("thickness_scale", "cos_theta", "wavelength_nm")
+        assert values.shape == tuple(table.values(axis).size for axis in dims)
         assert values.dtype == np.float32
         assert values.min() >= 0
         assert values.max() <= 1
-    assert np.isfinite(table.values("R_rgb")).all()
+    colours = [name for name in table.variables if name.endswith("_rgb")]
+    assert colours
+    assert all(np.isfinite(table.values(name)).all() for name in colours)
     assert table.certificate["nonfinite"] == 0
     assert len(table.id) == 64
 

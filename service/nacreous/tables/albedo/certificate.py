@@ -1,7 +1,8 @@
 """What an albedo table's numbers are worth: its errors, measured between the texels.
 
 As for the film: linear interpolation in the middle of cells against the albedo itself, in double precision,
-with twice the nodes and twice the facets each way. Cells are spread over the table; their number is stated.
+with twice the nodes and twice the facets each way. Cells are spread over the table; their number is stated. A
+function that bends within a cell may be off by more elsewhere in it: a finer axis tells.
 """
 
 from dataclasses import dataclass
@@ -94,7 +95,7 @@ def certify(
     waves = Cells.along(grid.wavelength_nm, _WAVELENGTH_CELLS)
     corners, middles = _Samples.at_corners(solver, cells, waves), _Samples.at_middles(solver, cells, waves)
     exact = _Samples.at_middles(solver.exact(), cells, waves)
-    texels, truth = corners.spectra(waves.corners), exact.spectra(waves.middles)  # (2, R, S, A, L)
+    texels, truth = corners.spectra(waves.corners), exact.spectra(waves.middles)  # (sides, R, S, A, L)
     error = np.abs(middle_of(texels, 4) - truth)
     colour = _NO_COLOUR if colouring is None else _colour_figures(corners, exact, colouring)
     return AlbedoCertificate(
@@ -152,9 +153,9 @@ class _Samples:
         return cls(solver, geometry, solver.mirror_mean(roughness), thickness_scale)
 
     def spectra(self, wavelength_nm: FloatArray) -> FloatArray:
-        """E_r and E_t, (2, R, S, A, L)."""
+        """E_r, and E_t where light is transmitted, (sides, R, S, A, L)."""
         sides = self.solver.spectra(self.geometry, self.mirror_mean, self.thickness_scale, wavelength_nm)
-        return np.stack(list(sides.values()))
+        return np.stack([sides[side] for side in self.solver.sides])
 
     def colours(self, colouring: Colouring) -> FloatArray:
         """Linear colours, (sides, R, S, A, 3)."""
