@@ -56,8 +56,8 @@ def test_the_largest_error_is_that_of_the_cells_middles(table: Table) -> None:
     assert table.certificate["held_out_points"] == 192
     assert table.certificate["albedo_error_max"] == pytest.approx(np.max(errors), abs=2e-4)
     assert table.certificate["albedo_error_p99"] == pytest.approx(
-        np.quantile([errors, np.zeros_like(errors)], 0.99), abs=2e-4
-    )  # E_t, 0 of a metal, is among them
+        np.quantile(errors, 0.99), abs=2e-4
+    )  # E_t, 0 of a metal, is not among them
     assert np.max(errors) > 0.01  # coarse enough that an error of 2e-4 tells
 
 
