@@ -107,8 +107,9 @@ class Surface(StrictModel):
     diffuse_reflectance : float
         Albedo of the diffuse term, 0 to 1.
     multiple_scattering : str
-        ``"none"``, as in the paper, or ``"kulla-conty"``: what D and G lose among the facets is given back
-        (C. Kulla and A. Conty 2017), coloured by the film (S. Hill 2018). ``"phong"`` has ``"none"`` alone.
+        ``"none"``, as in the paper, or ``"kulla-conty"``: the light that several facets reflect is added (C.
+        Kulla and A. Conty 2017), coloured by the film (S. Hill 2018); what they would transmit later is not.
+        ``"phong"`` has ``"none"`` alone.
     """
 
     distribution: Distribution = "ashikhmin-shirley"

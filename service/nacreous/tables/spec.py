@@ -231,6 +231,8 @@ def _check_phi_i(spec: Spec) -> None:
 def canonical_json(spec: Spec) -> str:
     """Return what decides the bytes of `spec`'s tables: no labels, keys sorted, numbers in full precision."""
     fields: dict[str, Any] = spec.model_dump(mode="json", exclude=set(LABELS))
+    if spec.table.quantity == "bsdf":
+        del fields["table"]["cos_theta"]  # it has theta_i in its place
     return json.dumps(fields, sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
 
 

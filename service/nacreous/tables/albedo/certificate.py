@@ -112,11 +112,11 @@ def certify(
 
 
 def colour_differences(
-    solver: AlbedoSolver, exact: AlbedoSolver, cells: AlbedoCells, grid: Grid, colouring: Colouring
+    solver: AlbedoSolver, cells: AlbedoCells, grid: Grid, colouring: Colouring
 ) -> FloatArray:
-    """CIEDE2000 amid cells, of colours that `solver` gives at their corners and `exact` there: (sides, …)."""
+    """CIEDE2000 amid cells of colours interpolated from their corners and computed there, (sides, …)."""
     waves = Cells(grid.wavelength_nm, grid.wavelength_nm)
-    corners, middles = _Samples.at_corners(solver, cells, waves), _Samples.at_middles(exact, cells, waves)
+    corners, middles = _Samples.at_corners(solver, cells, waves), _Samples.at_middles(solver, cells, waves)
     return _differences(corners.colours(colouring), middles.colours(colouring), colouring)
 
 

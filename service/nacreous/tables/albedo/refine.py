@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from nacreous.errors import SpecError
 from nacreous.tables.albedo.certificate import AlbedoCells, colour_differences
 from nacreous.tables.albedo.solver import AlbedoSolver
-from nacreous.tables.axes import MAX_POINTS
 from nacreous.tables.cells import Cells
 from nacreous.tables.colour import Colouring
 from nacreous.tables.film import Grid
@@ -33,7 +33,10 @@ _SHARES: dict[int, tuple[tuple[float, ...], ...]] = {
 """Parts of the allowed difference that each refined axis may use up, by how many axes there are."""
 _PROBES = 3
 """Values of the other axes at which one is refined by itself."""
-_GROWTH = 1.1
+_GROWTH = (1.05, 1.5)
+"""Least and largest growth of a count while a cell does not hold."""
+_MOST_TEXELS = 2**18
+"""Texels that are refined at all: all cells of that many take minutes to measure."""
 
 
 def refined(
@@ -55,7 +58,10 @@ def refined(
         search.alone(axes, dict(zip(open_axes, shares, strict=True)), delta_e)
         for shares in _SHARES[len(open_axes)]
     ]
-    holding = search.holding(min(tables, key=_texels), open_axes, delta_e)
+    smallest = min(tables, key=_texels)
+    if _texels(smallest) > _MOST_TEXELS:
+        raise _too_many(delta_e)
+    holding = search.holding(smallest, open_axes, delta_e)
     chosen = search.slimmed(holding, axes, open_axes, delta_e)
     return chosen[0], replace(grid, thickness_scale=chosen[1], cos_theta=chosen[2])
 
@@ -75,11 +81,12 @@ class _Search:
 
     def holding(self, axes: Axes, open_axes: list[int], delta_e: float) -> Axes:
         """Widen a table until it holds in all of its cells, each time along the axis that helps most."""
-        while self.worst(axes) > delta_e:
-            wider = [_counted(axes, at, math.ceil(_GROWTH * axes[at].size)) for at in open_axes]
+        while (worst := self.worst(axes)) > delta_e:
+            growth = float(np.clip((worst / delta_e) ** 0.5, *_GROWTH))
+            wider = [_counted(axes, at, math.ceil(growth * axes[at].size)) for at in open_axes]
             axes = min(wider, key=self.worst)
-            if max(values.size for values in axes) > MAX_POINTS:
-                raise unreachable(delta_e)
+            if _texels(axes) > _MOST_TEXELS:
+                raise _too_many(delta_e)
         return axes
 
     def slimmed(self, holding: Axes, least: Axes, open_axes: list[int], delta_e: float) -> Axes:
@@ -94,7 +101,10 @@ class _Search:
         return holding
 
     def worst(self, axes: Axes) -> float:
-        """Largest difference in all cells of a table, against the albedo in double precision."""
+        """Largest difference in all cells of a table, against the albedo between its texels.
+
+        That is computed as the texels are, within 1e-4 of the exact one: the certificate measures that.
+        """
         return self._difference(tuple(Cells.along(values, values.size) for values in axes))
 
     def _fewest(self, axes: Axes, at: int, allowed: float) -> int:
@@ -110,9 +120,8 @@ class _Search:
         return count
 
     def _difference(self, cells: tuple[Cells, ...]) -> float:
-        exact = self.solver.exact()
         chosen = AlbedoCells(*cells)
-        return float(colour_differences(self.solver, exact, chosen, self.grid, self.colouring).max())
+        return float(colour_differences(self.solver, chosen, self.grid, self.colouring).max())
 
 
 def _respaced(axes: Axes, counts: list[int]) -> Axes:
@@ -124,6 +133,15 @@ def _counted(axes: Axes, at: int, count: int) -> Axes:
     counts = [values.size for values in axes]
     counts[at] = count
     return _respaced(axes, counts)
+
+
+def _too_many(delta_e: float) -> SpecError:
+    return SpecError(
+        "accuracy.delta_e",
+        f"a difference that a table of {_MOST_TEXELS:,} texels can keep",
+        f"{delta_e:g}",
+        "allow a larger difference, or tabulate a smaller range of roughness or thickness",
+    )
 
 
 def _texels(axes: Axes) -> int:

@@ -28,8 +28,8 @@ __all__ = ["BsdfSolver", "Pairs", "bsdf_solver"]
 
 FloatArray = NDArray[np.float64]
 
-SAME_INDEX = 1e-4
-"""Difference of the indices of both media below which light is not refracted: it passes straight on."""
+SAME_INDEX = 1e-3
+"""Difference of the indices of both media below which light passes straight on, all but unrefracted."""
 _LEAST_LOSS = 1e-6
 
 
@@ -78,7 +78,7 @@ class BsdfSolver:
         table over directions holds; the albedo E_t has it.
         """
         incident, substrate = self.albedo.film.indices(wavelength_nm)
-        straight = np.abs(incident - substrate).min() < SAME_INDEX
+        straight = np.abs(incident - substrate).max() < SAME_INDEX
         return tuple(s for s in self.albedo.sides if s is Side.REFLECTION or not straight)
 
     def reflection(

@@ -102,7 +102,7 @@ class _Task:
         steps: list[Step] = []
         if Part.SPECTRUM in wanted:
             steps += [partial(self._spectra, side) for side in sides]
-            if self.solver.albedo.sides == (Side.REFLECTION,):
+            if Side.TRANSMISSION not in sides:
                 steps.append(self._nothing_transmitted)
         if Part.COLOUR in wanted and self.colouring is not None:
             steps += [partial(self._colours, self.colouring, side) for side in sides]
@@ -127,7 +127,7 @@ class _Task:
     def _nothing_transmitted(self, observer: Observer | None) -> dict[str, Variable]:
         del observer
         nothing = np.zeros((*self._shape, self.wavelength_nm.size), np.float32)
-        meaning = "BSDF of transmitted light: the substrate is opaque, or the distribution has no such lobe"
+        meaning = "BSDF of transmitted light: none is scattered (opaque substrate, equal media, or phong)"
         return {"f_t": Variable((*self._dims, "wavelength_nm"), nothing, "1/sr", meaning)}
 
     def _colours(self, colouring: Colouring, side: Side, observer: Observer | None) -> dict[str, Variable]:
