@@ -100,18 +100,29 @@ def test_axes_that_hold_are_left_alone() -> None:
 
 
 def test_a_table_is_widened_until_it_holds(device: Device) -> None:
-    """One that is too coarse in every axis grows by tenths until no cell is worse, and no further."""
+    """One that is too coarse in every axis grows until no cell is worse, and no further."""
     spec = rough_spec({"distribution": "beckmann"}, substrate=METAL, **AXES)
     solver, _ = solvers_of(device, spec)
     grid = grid_of(spec)
     colouring = colouring_of(spec, solver.film.solver, grid)
     assert colouring is not None
-    search = refine._Search(solver, colouring, grid)
+    search = refine._Search(solver, colouring, grid, 2.0, 2**16)
     axes = np.array([0.15, 0.6]), np.ones(1), np.linspace(0, 1, 9)
     assert search.worst(axes) > 2
-    held = search.holding(axes, [0, 2], 2.0)
+    held = search.holding(axes, [0, 2])
     assert 0.8 < search.worst(held) <= 2
     assert held[1].size == 1
+
+
+def test_a_difference_that_only_huge_tables_keep_is_refused() -> None:
+    """Before they are searched for: the message has the difference that was asked for."""
+    with pytest.raises(SpecError, match=r"accuracy\.delta_e: expected .* 65,536 texels can keep, got 0\.05"):
+        tabulated(
+            0.05,
+            roughness={"start": 0.01, "stop": 1.0, "count": 64},
+            cos_theta=64,
+            thickness_scale={"start": 0.5, "stop": 2.0, "count": 8},
+        )
 
 
 def test_one_angle_and_one_roughness_need_no_more() -> None:

@@ -60,11 +60,14 @@ def found(table: Table) -> tuple[FloatArray, FloatArray]:
 
 
 def test_errors_are_those_of_the_cells_middles(table: Table, found: tuple[FloatArray, FloatArray]) -> None:
-    """Found again at all 144 middles, the largest, the 99th percentile, and the largest value."""
+    """Found again at all 144 middles, the largest and the 99th percentile; the largest value, a sample's."""
     errors, sizes = found
     stated = table.certificate
     assert stated["held_out_points"] == errors.size == 144
-    assert stated["bsdf_max"] == pytest.approx(sizes.max(), rel=1e-3)
+    cos_o = np.cos(table.values("theta_o"))[:, None, None]
+    largest = max(float((table.values(name) * cos_o).max()) for name in ("f_r", "f_t"))
+    assert largest > sizes.max()
+    assert stated["bsdf_max"] == pytest.approx(largest, rel=1e-3)
     assert stated["bsdf_error_max"] == pytest.approx(errors.max(), abs=1e-4 + 1e-3 * errors.max())
     assert stated["bsdf_error_p99"] == pytest.approx(
         np.quantile(errors, 0.99), abs=1e-4 + 1e-3 * errors.max()
@@ -100,11 +103,11 @@ def test_the_figures_of_a_sound_table(table: Table) -> None:
 
 
 def test_a_lobe_narrower_than_the_grid_is_told() -> None:
-    """Alpha 0.02 on steps of a tenth of a radian: the error is as large as the lobe itself."""
+    """Alpha 0.02 on steps of a tenth of a radian: the error is a large part of the lobe."""
     angles = {"theta_i": [0.3, 0.5], "theta_o": [0.3, 0.4, 0.5], "phi": [2.9, 3.1]}
     spec = rough_spec({"alpha_x": 0.02}, quantity="bsdf", wavelength_nm=NM, **angles)
     stated = tabulate_table(spec).certificate
-    assert stated["bsdf_error_max"] > 0.3 * stated["bsdf_max"]
+    assert stated["bsdf_error_max"] > 0.1 * stated["bsdf_max"]
 
 
 def test_a_finer_grid_has_smaller_errors() -> None:

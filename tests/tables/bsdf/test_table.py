@@ -78,9 +78,10 @@ def test_only_the_parts_asked_for() -> None:
 
 
 def test_equal_media_have_no_table_of_transmission() -> None:
-    """Light passes straight on, in one direction: f_t is no function, and not there; E_t of an albedo is."""
+    """Light passes straight on, in one direction that f_t cannot hold: it is 0, and E_t of an albedo is not."""
     table = tabulate_table(bsdf_spec({"alpha_x": 0.3}, substrate="vacuum"))
-    assert set(table.variables) == {"f_r", "f_r_rgb"}
+    assert set(table.variables) == {"f_r", "f_r_rgb", "f_t"}
+    assert not table.values("f_t").any()
     albedo = tabulate_table(rough_spec({"alpha_x": 0.3}, substrate="vacuum", cos_theta=3))
     assert albedo.values("E_t").min() >= 0
     assert albedo.values("E_t")[0, 0, -1].min() > 0.5
@@ -156,3 +157,14 @@ def test_the_same_spec_gives_the_same_bytes() -> None:
         assert again.provenance == first.provenance
         for name, variable in first.variables.items():
             assert again.values(name).tobytes() == variable.values.tobytes()
+
+
+@pytest.mark.parametrize("n", [1.1, 1.3, 1.5, 1.7])
+def test_a_free_film_whose_fringes_touch_0_is_a_table(n: float) -> None:
+    """R of a clear film between equal media is 0 at half waves, where a cubic would fall below it."""
+    film = {"material": {"n": n}, "thickness_nm": 300}
+    spec = rough_spec({"distribution": "ggx", "alpha_x": 0.3}, film, substrate="vacuum", quantity="bsdf")
+    table = tabulate_table(spec, {Part.SPECTRUM})
+    assert table.values("f_r").min() >= 0
+    assert table.values("f_r").max() > 1
+    assert not table.values("f_t").any()

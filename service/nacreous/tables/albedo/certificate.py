@@ -122,12 +122,17 @@ def colour_differences(
 
 @dataclass(frozen=True, eq=False)
 class _Samples:
-    """The albedo at every combination of some roughnesses, scales and angles."""
+    """The albedo at every combination of some roughnesses, scales and angles, each computed once.
+
+    Neighbouring cells share their corners: `places` are those of the samples, (R,), (S,) and (A,), among the
+    distinct values that the rest is for.
+    """
 
     solver: AlbedoSolver
     geometry: AlbedoGeometry
     mirror_mean: FloatArray
     thickness_scale: FloatArray
+    places: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]
 
     @classmethod
     def at_corners(cls, solver: AlbedoSolver, cells: AlbedoCells, waves: Cells) -> "_Samples":
@@ -148,23 +153,25 @@ class _Samples:
         cos_theta: FloatArray,
         waves: Cells,
     ) -> "_Samples":
-        span = np.unique(waves.corners)
-        geometry = solver.geometry(roughness, cos_theta, span)
-        return cls(solver, geometry, solver.mirror_mean(roughness), thickness_scale)
+        axes = (roughness, thickness_scale, cos_theta)
+        (alpha, r), (scale, s), (mu, a) = (np.unique(axis, return_inverse=True) for axis in axes)
+        geometry = solver.geometry(alpha, mu, np.unique(waves.corners))
+        return cls(solver, geometry, solver.mirror_mean(alpha), scale, (r, s, a))
+
+    def _placed(self, distinct: FloatArray) -> FloatArray:
+        """Values at the samples, (R, S, A, …), of those at the distinct ones."""
+        values: FloatArray = distinct[np.ix_(*self.places)]
+        return values
 
     def spectra(self, wavelength_nm: FloatArray) -> FloatArray:
         """E_r, and E_t where light is transmitted, (sides, R, S, A, L)."""
         sides = self.solver.spectra(self.geometry, self.mirror_mean, self.thickness_scale, wavelength_nm)
-        return np.stack([sides[side] for side in self.solver.sides])
+        return np.stack([self._placed(sides[side]) for side in self.solver.sides])
 
     def colours(self, colouring: Colouring) -> FloatArray:
         """Linear colours, (sides, R, S, A, 3)."""
-        return np.stack(
-            [
-                self.solver.colours(self.geometry, self.mirror_mean, self.thickness_scale, colouring, side)
-                for side in self.solver.sides
-            ]
-        )
+        task = (self.geometry, self.mirror_mean, self.thickness_scale, colouring)
+        return np.stack([self._placed(self.solver.colours(*task, side)) for side in self.solver.sides])
 
 
 _NO_COLOUR: dict[str, Any] = {

@@ -35,8 +35,8 @@ _PROBES = 3
 """Values of the other axes at which one is refined by itself."""
 _GROWTH = (1.05, 1.5)
 """Least and largest growth of a count while a cell does not hold."""
-_MOST_TEXELS = 2**18
-"""Texels that are refined at all: all cells of that many take minutes to measure."""
+_MOST_TEXELS = 2**16
+"""Texels to which a table is refined: all cells of that many take seconds to measure, again and again."""
 
 
 def refined(
@@ -49,20 +49,19 @@ def refined(
     Raises
     ------
     SpecError
-        No grid of at most 65,536 points an axis is fine enough.
+        No grid of at most 65,536 texels is fine enough.
     """
     axes: Axes = (roughness, grid.thickness_scale, grid.cos_theta)
-    search = _Search(solver, colouring, grid)
+    search = _Search(solver, colouring, grid, delta_e, max(_MOST_TEXELS, _texels(axes)))
     open_axes = [at for at, values in enumerate(axes) if values.size > 1]
     tables = [
-        search.alone(axes, dict(zip(open_axes, shares, strict=True)), delta_e)
-        for shares in _SHARES[len(open_axes)]
+        search.alone(axes, dict(zip(open_axes, shares, strict=True))) for shares in _SHARES[len(open_axes)]
     ]
     smallest = min(tables, key=_texels)
-    if _texels(smallest) > _MOST_TEXELS:
-        raise _too_many(delta_e)
-    holding = search.holding(smallest, open_axes, delta_e)
-    chosen = search.slimmed(holding, axes, open_axes, delta_e)
+    if _texels(smallest) > search.most_texels:
+        raise search.too_many()
+    holding = search.holding(smallest, open_axes)
+    chosen = search.slimmed(holding, axes, open_axes)
     return chosen[0], replace(grid, thickness_scale=chosen[1], cos_theta=chosen[2])
 
 
@@ -71,32 +70,34 @@ class _Search:
     solver: AlbedoSolver
     colouring: Colouring
     grid: Grid
+    delta_e: float
+    most_texels: int
 
-    def alone(self, axes: Axes, shares: dict[int, float], delta_e: float) -> Axes:
+    def alone(self, axes: Axes, shares: dict[int, float]) -> Axes:
         """Refine each axis of `shares` by itself, for its share of the difference."""
         counts = [values.size for values in axes]
         for at, share in shares.items():
-            counts[at] = self._fewest(axes, at, share * delta_e)
+            counts[at] = self._fewest(axes, at, share * self.delta_e)
         return _respaced(axes, counts)
 
-    def holding(self, axes: Axes, open_axes: list[int], delta_e: float) -> Axes:
+    def holding(self, axes: Axes, open_axes: list[int]) -> Axes:
         """Widen a table until it holds in all of its cells, each time along the axis that helps most."""
-        while (worst := self.worst(axes)) > delta_e:
-            growth = float(np.clip((worst / delta_e) ** 0.5, *_GROWTH))
+        while (worst := self.worst(axes)) > self.delta_e:
+            growth = float(np.clip((worst / self.delta_e) ** 0.5, *_GROWTH))
             wider = [_counted(axes, at, math.ceil(growth * axes[at].size)) for at in open_axes]
             axes = min(wider, key=self.worst)
-            if _texels(axes) > _MOST_TEXELS:
-                raise _too_many(delta_e)
+            if _texels(axes) > self.most_texels:
+                raise self.too_many()
         return axes
 
-    def slimmed(self, holding: Axes, least: Axes, open_axes: list[int], delta_e: float) -> Axes:
+    def slimmed(self, holding: Axes, least: Axes, open_axes: list[int]) -> Axes:
         """Take samples off each axis in turn, by halving, while all cells hold; at least those of `least`."""
         for at in open_axes:
             low, high = least[at].size - 1, holding[at].size
             while high - low > max(1, low // 32):
                 middle = (low + high) // 2
                 slimmer = _counted(holding, at, middle)
-                low, high = (low, middle) if self.worst(slimmer) <= delta_e else (middle, high)
+                low, high = (low, middle) if self.worst(slimmer) <= self.delta_e else (middle, high)
             holding = _counted(holding, at, high)
         return holding
 
@@ -107,8 +108,19 @@ class _Search:
         """
         return self._difference(tuple(Cells.along(values, values.size) for values in axes))
 
+    def too_many(self) -> SpecError:
+        """Return the refusal of a difference that only a larger table keeps."""
+        return SpecError(
+            "accuracy.delta_e",
+            f"a difference that a table of {self.most_texels:,} texels can keep",
+            f"{self.delta_e:g}",
+            "allow a larger difference, or tabulate a smaller range of roughness or thickness",
+        )
+
     def _fewest(self, axes: Axes, at: int, allowed: float) -> int:
         def error(count: int) -> float:
+            if count * _texels(axes) // axes[at].size > self.most_texels:
+                raise self.too_many()
             few = [Cells(values, values) for values in (probe(axis, _PROBES) for axis in axes)]
             values = spaced(axes[at], count)
             few[at] = Cells.along(values, values.size)
@@ -116,7 +128,7 @@ class _Search:
 
         count = fewest(error, axes[at].size, allowed)
         if count is None:
-            raise unreachable(allowed)
+            raise unreachable(self.delta_e)
         return count
 
     def _difference(self, cells: tuple[Cells, ...]) -> float:
@@ -133,15 +145,6 @@ def _counted(axes: Axes, at: int, count: int) -> Axes:
     counts = [values.size for values in axes]
     counts[at] = count
     return _respaced(axes, counts)
-
-
-def _too_many(delta_e: float) -> SpecError:
-    return SpecError(
-        "accuracy.delta_e",
-        f"a difference that a table of {_MOST_TEXELS:,} texels can keep",
-        f"{delta_e:g}",
-        "allow a larger difference, or tabulate a smaller range of roughness or thickness",
-    )
 
 
 def _texels(axes: Axes) -> int:
