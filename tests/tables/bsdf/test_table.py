@@ -78,7 +78,7 @@ def test_only_the_parts_asked_for() -> None:
 
 
 def test_equal_media_have_no_table_of_transmission() -> None:
-    """Light passes straight on, in one direction that f_t cannot hold: it is 0, and E_t of an albedo is not."""
+    """Light passes straight on, in one direction that f_t cannot hold: it is 0. E_t of an albedo is not."""
     table = tabulate_table(bsdf_spec({"alpha_x": 0.3}, substrate="vacuum"))
     assert set(table.variables) == {"f_r", "f_r_rgb", "f_t"}
     assert not table.values("f_t").any()
