@@ -21,11 +21,8 @@ from nacreous.opencl.film_colour import Side
 from nacreous.optics.material import NamedMaterial
 from nacreous.optics.refractive_index import refractive_index
 from nacreous.tables.albedo.solver import albedo_solver
-from nacreous.tables.computed import asked_precision, grid_of
-from nacreous.tables.facet_film import FACET_COSINES, facet_film
-from nacreous.tables.film import Grid
-from nacreous.tables.solver import film_solver
-from nacreous.tables.spec import Spec, roughness_values, surface_of
+from nacreous.tables.computed import grid_of
+from nacreous.tables.spec import Spec, roughness_values
 from reference_facets import Surface, dot, masking_shadowing
 from reference_surface import Coating, monte_carlo_albedo, reflected, sample_facet
 
@@ -134,17 +131,8 @@ def reference_samples(work: AlbedoWork) -> tuple[NDArray[np.int_], FloatArray]:
 def ours(work: AlbedoWork) -> FloatArray:
     """Nacreous in single precision, from a spec to an array."""
     spec = albedo_spec(work)
-    device, grid, roughness, precision = (
-        open_device(),
-        grid_of(spec),
-        roughness_values(spec),
-        asked_precision(spec),
-    )
-    on_facets = Grid(grid.thickness_scale, FACET_COSINES, grid.wavelength_nm)
-    film = facet_film(
-        film_solver(device, spec.stack, on_facets, precision), grid.thickness_scale, grid.wavelength_nm
-    )
-    solver = albedo_solver(device, surface_of(spec), film, roughness, grid, precision)
+    grid, roughness = grid_of(spec), roughness_values(spec)
+    solver = albedo_solver(open_device(), spec)
     geometry = solver.geometry(roughness, grid.cos_theta, grid.wavelength_nm)
     mirror_mean = solver.mirror_mean(roughness)
     sides = solver.spectra(geometry, mirror_mean, grid.thickness_scale, grid.wavelength_nm)

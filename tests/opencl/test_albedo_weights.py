@@ -1,5 +1,6 @@
 """Which angles to its facets a rough surface takes light at: energy, and an independent cubature."""
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -17,9 +18,10 @@ from kernel_surface import (
 )
 from nacreous.errors import BudgetError
 from nacreous.opencl import tiles
-from nacreous.opencl.albedo_weights import reflection_weights, transmission_weights
+from nacreous.opencl.albedo_weights import AlbedoProblem, albedo_weights
 from nacreous.opencl.device import Device
-from nacreous.opencl.microsurface import microsurface
+from nacreous.opencl.film_colour import Side
+from nacreous.opencl.microsurface import Microsurface, microsurface
 from nacreous.opencl.precision import Precision
 from nacreous.optics.facets import FacetRule
 from reference_facets import FloatArray, Surface
@@ -30,10 +32,20 @@ NODES = 65
 COSINES = np.array([0, 1e-3, 0.01, 0.03, 0.1, 0.12, 0.2, 0.35, 0.5, 0.75, 0.9, 1])
 
 
+def reflected(surface: Microsurface, cos_theta: FloatArray = COSINES, nodes: int = NODES) -> AlbedoProblem:
+    """Facets that reflect all light."""
+    return AlbedoProblem(surface, Side.REFLECTION, cos_theta, nodes, RULE)
+
+
+def refracted(surface: Microsurface, eta: float) -> AlbedoProblem:
+    """Facets that transmit all light."""
+    return AlbedoProblem(surface, Side.TRANSMISSION, COSINES, NODES, RULE, eta)
+
+
 def furnace(device: Device, distribution: str, masking: str, *alphas: float) -> FloatArray:
     """Albedo of facets that reflect everything at `COSINES`, (A,), in single precision."""
     surface = facets_of(device, distribution, masking, *alphas)
-    weights = reflection_weights(device, surface, COSINES, NODES, RULE, Precision.SINGLE)
+    weights = albedo_weights(device, reflected(surface), Precision.SINGLE)
     return weights[0].sum(axis=-1, dtype=float)
 
 
@@ -44,7 +56,7 @@ def test_a_white_furnace_gains_nothing(distribution: str, masking: str, device: 
     Eq 13, Smith's G and the lobe of Sun 2006 lose only what a second bounce would bring.
     """
     surface = microsurface(device, distribution, masking, alphas_of(distribution))
-    weights = reflection_weights(device, surface, COSINES, NODES, RULE, Precision.SINGLE)
+    weights = albedo_weights(device, reflected(surface), Precision.SINGLE)
     E = weights.sum(axis=-1, dtype=float)
     assert np.isfinite(E).all()
     assert E.min() >= 0
@@ -99,7 +111,7 @@ def test_an_anisotropic_albedo_is_the_mean_over_azimuths(masking: str, device: D
 def test_nodes_hold_cubics(degree: int, device: Device) -> None:
     """The light is placed so that a film of (i.h)^k, k <= 3, has the cubature's albedo: Lagrange is exact."""
     surface = facets_of(device, "beckmann", "smith", 0.4)
-    weights = reflection_weights(device, surface, COSINES, 9, RULE, Precision.DOUBLE)[0]
+    weights = albedo_weights(device, reflected(surface, nodes=9), Precision.DOUBLE)[0]
     film = np.linspace(0, 1, 9) ** degree
     for mu in (0.2, 0.75):
         cosine, share = mirrored_flux(Surface("beckmann", 0.4, 0.4, "smith"), mu)
@@ -122,7 +134,7 @@ def test_refraction_gains_nothing(distribution: str, masking: str, device: Devic
     """T = 1: the share that is refracted is at most 1 + 1e-4, into glass and out of it."""
     surface = microsurface(device, distribution, masking, alphas_of(distribution))
     for eta in (1 / 1.5, 1.5, 1.0):
-        weights = transmission_weights(device, surface, COSINES, NODES, RULE, Precision.SINGLE, eta)
+        weights = albedo_weights(device, refracted(surface, eta), Precision.SINGLE)
         E = weights.sum(axis=-1, dtype=float)
         assert np.isfinite(E).all()
         assert E.max() <= 1 + 1e-4
@@ -134,7 +146,7 @@ def test_nothing_is_refracted_beyond_the_critical_angle(device: Device) -> None:
     A facet above it weighs on four nodes, the lowest of them up to two steps below.
     """
     surface = facets_of(device, "ggx", "smith", 0.3)
-    weights = transmission_weights(device, surface, COSINES, NODES, RULE, Precision.DOUBLE, 1.5)[0]
+    weights = albedo_weights(device, refracted(surface, 1.5), Precision.DOUBLE)[0]
     critical = np.sqrt(1 - 1 / 1.5**2)
     below = np.linspace(0, 1, NODES) < critical - 2 / (NODES - 1)
     assert (weights[:, below] == 0).all()
@@ -148,7 +160,7 @@ def test_equal_media_refract_nothing_aside(device: Device) -> None:
     """
     alpha = 0.5
     surface = facets_of(device, "ggx", "smith-separable", alpha)
-    weights = transmission_weights(device, surface, COSINES, NODES, RULE, Precision.DOUBLE, 1.0)[0]
+    weights = albedo_weights(device, refracted(surface, 1.0), Precision.DOUBLE)[0]
     mu = COSINES[3:]
     lit = 2 * mu / (mu + np.sqrt(mu**2 + alpha**2 * (1 - mu**2)))  # Walter et al. 2007, eq 34
     np.testing.assert_allclose(weights[3:].sum(axis=-1), lit, rtol=0, atol=1e-4)
@@ -157,7 +169,7 @@ def test_equal_media_refract_nothing_aside(device: Device) -> None:
 def test_grazing_light_is_the_limit(device: Device) -> None:
     """Cosine 0 is as 1e-5, and finite."""
     surface = facets_of(device, "ashikhmin-shirley", "smith", 0.3)
-    weights = reflection_weights(device, surface, np.array([0, 1e-5, 1e-4]), NODES, RULE, Precision.SINGLE)[0]
+    weights = albedo_weights(device, reflected(surface, np.array([0, 1e-5, 1e-4])), Precision.SINGLE)[0]
     np.testing.assert_array_equal(weights[0], weights[1])
     np.testing.assert_allclose(weights[1].sum(), weights[2].sum(), atol=1e-3)
 
@@ -166,23 +178,24 @@ def test_grazing_light_is_the_limit(device: Device) -> None:
 def test_precisions_and_lanes_agree(distribution: str, device: Device) -> None:
     """1, 4, 8 or 16 facets at a time in either precision: the same weights."""
     surface = microsurface(device, distribution, "v-cavity", alphas_of(distribution)[[0, -1]])
-    task = (device, surface, COSINES[::3], NODES, FacetRule(33, 10, 3))
-    exact = reflection_weights(*task, Precision.DOUBLE)
+    problem = replace(reflected(surface, COSINES[::3]), rule=FacetRule(33, 10, 3))
+    exact = albedo_weights(device, problem, Precision.DOUBLE)
     for precision, tolerance in ((Precision.SINGLE, 2e-5), (Precision.DOUBLE, 1e-12)):
         for lanes in (1, 4, 8, 16):
-            got = reflection_weights(*task, precision, lanes=lanes)
+            got = albedo_weights(device, problem, precision, lanes=lanes)
             np.testing.assert_allclose(got, exact, rtol=0, atol=tolerance)
 
 
 def test_tiles_do_not_matter(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     """A row at a time or all at once: the same bytes, and the observer hears of each."""
     surface = microsurface(device, "ggx", "smith", alphas_of("ggx"))
-    task = (device, surface, COSINES, NODES, FacetRule(16, 8, 2), Precision.SINGLE, 1 / 1.5)
-    whole = transmission_weights(*task)
+    problem = replace(refracted(surface, 1 / 1.5), rule=FacetRule(16, 8, 2))
+    whole = albedo_weights(device, problem, Precision.SINGLE)
     monkeypatch.setattr(tiles, "_FIRST_TILE_EVALUATIONS", 1)
     monkeypatch.setattr(tiles, "_MOST_GROWTH", 1)
     told: list[float] = []
-    assert transmission_weights(*task, observer=told.append).tobytes() == whole.tobytes()
+    again = albedo_weights(device, problem, Precision.SINGLE, observer=told.append)
+    assert again.tobytes() == whole.tobytes()
     assert len(told) == 2 * whole.shape[0] * whole.shape[1]  # from two azimuths
     assert told == sorted(told)
     assert told[-1] == 1

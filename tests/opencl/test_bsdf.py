@@ -1,5 +1,6 @@
 """f_r and f_t of the kernels at pairs of directions: against NumPy, and by their laws."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from kernel_surface import COMBINATIONS, FACETS, ISOTROPIC, facets_of, random_directions
 from nacreous.errors import BudgetError
 from nacreous.opencl import tiles
-from nacreous.opencl.bsdf import BsdfProblem, bsdf_colours, bsdf_spectra
+from nacreous.opencl.bsdf import BsdfProblem, Pairs, bsdf_colours, bsdf_spectra
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.microsurface import microsurface
@@ -18,6 +19,8 @@ from reference_surface import Coating, f_t, white_f_r
 
 NODES, PAIRS = 257, 10_000
 DOWN = np.array([1.0, 1.0, -1.0])
+ProblemOf = Callable[[Device, tuple[str, str, tuple[float, float]]], BsdfProblem]
+"""`reflection` or `transmission`."""
 SURFACES = [
     (name, masking, alphas)
     for name, masking in COMBINATIONS
@@ -35,24 +38,34 @@ def reflection(device: Device, surface: tuple[str, str, tuple[float, float]], se
     eta = np.array([[1.0, 1.0, 1.0], [1.3, 1.5, 2.4]])
     i, o = random_directions(PAIRS, seed), random_directions(PAIRS, seed + 1)
     facets = facets_of(device, distribution, masking, *alphas)
-    return BsdfProblem(facets, Side.REFLECTION, film, eta, np.zeros(PAIRS, np.int32), i, o)
+    return BsdfProblem(facets, Side.REFLECTION, film, eta, Pairs(np.zeros(PAIRS, np.int32), i, o))
 
 
 def transmission(device: Device, surface: tuple[str, str, tuple[float, float]], seed: int = 0) -> BsdfProblem:
     """Return the same with the outgoing directions below the surface."""
     problem = reflection(device, surface, seed)
-    return replace(problem, side=Side.TRANSMISSION, outgoing=problem.outgoing * DOWN)
+    below = replace(problem.pairs, outgoing=problem.pairs.outgoing * DOWN)
+    return replace(problem, side=Side.TRANSMISSION, pairs=below)
 
 
 def swapped(problem: BsdfProblem) -> BsdfProblem:
     """Exchange incoming and outgoing light."""
-    return replace(problem, incoming=problem.outgoing, outgoing=problem.incoming)
+    pairs = problem.pairs
+    return replace(problem, pairs=replace(pairs, incoming=pairs.outgoing, outgoing=pairs.incoming))
+
+
+def turned_over(problem: BsdfProblem) -> BsdfProblem:
+    """Look at the same surface from below."""
+    pairs = problem.pairs
+    return replace(
+        problem, pairs=replace(pairs, incoming=pairs.incoming * DOWN, outgoing=pairs.outgoing * DOWN)
+    )
 
 
 def expected_reflection(problem: BsdfProblem, surface: tuple[str, str, tuple[float, float]]) -> FloatArray:
     """D G / (4 cos_i cos_o) by NumPy, times the film at cos theta_d = sqrt((1 + i.o) / 2)."""
     distribution, masking, alphas = surface
-    i, o = problem.incoming, problem.outgoing
+    i, o = problem.pairs.incoming, problem.pairs.outgoing
     cos_d = np.sqrt((1 + (i * o).sum(axis=-1, keepdims=True)) / 2)
     return white_f_r(Surface(distribution, *alphas, masking), i, o)[:, None] * (ALBEDO + SLOPE * cos_d)
 
@@ -89,7 +102,8 @@ def test_transmission_is_walters(surface: tuple[str, str, tuple[float, float]], 
     coating = Coating(problem.eta.astype(complex), np.zeros(0), np.array([450.0, 550.0, 650.0]))
     _, T = coating.intensities(np.linspace(0, 1, NODES))
     problem = replace(problem, film=T)
-    expected = f_t(Surface(distribution, *alphas, masking), coating, problem.incoming, problem.outgoing)
+    i, o = problem.pairs.incoming, problem.pairs.outgoing
+    expected = f_t(Surface(distribution, *alphas, masking), coating, i, o)
     got = bsdf_spectra(device, problem, Precision.DOUBLE)
     assert (expected > 0).any()
     np.testing.assert_allclose(got, expected, rtol=5e-5, atol=1e-6)
@@ -103,11 +117,11 @@ def test_light_that_no_facet_refracts_is_0(device: Device) -> None:
     problem = transmission(device, ("ggx", "smith", (0.5, 0.5)))
     problem = replace(problem, eta=problem.eta[::-1])
     got = bsdf_spectra(device, problem, Precision.SINGLE)
-    h = 1.5 * problem.incoming + problem.outgoing
-    passes = ((h * problem.incoming).sum(-1) > 0) & ((h * problem.outgoing).sum(-1) < 0)
+    i, o = problem.pairs.incoming, problem.pairs.outgoing
+    h = 1.5 * i + o
     h *= np.sign(h[:, 2:])
-    passes = ((h * problem.incoming).sum(-1) > 1e-4) & ((h * problem.outgoing).sum(-1) < -1e-4)
-    refused = ((h * problem.incoming).sum(-1) < -1e-4) | ((h * problem.outgoing).sum(-1) > 1e-4)
+    passes = ((h * i).sum(-1) > 1e-4) & ((h * o).sum(-1) < -1e-4)
+    refused = ((h * i).sum(-1) < -1e-4) | ((h * o).sum(-1) > 1e-4)
     assert refused.any()
     assert (got[refused, 1] == 0).all()
     assert (got[passes, 1] > 0).all()
@@ -117,17 +131,16 @@ def test_light_that_no_facet_refracts_is_0(device: Device) -> None:
 def test_transmission_is_reciprocal(masking: str, device: Device) -> None:
     """Walter et al. 2007, section 2: f_t(i, o) / n_o^2 = f_t(o, i) / n_i^2, turned over, one T for both."""
     forth = replace(transmission(device, ("beckmann", masking, (0.3, 0.5))), film=np.ones((NODES, 3)))
-    back = replace(swapped(forth), eta=forth.eta[::-1])
-    back = replace(back, incoming=back.incoming * DOWN, outgoing=back.outgoing * DOWN)
+    back = turned_over(replace(swapped(forth), eta=forth.eta[::-1]))
     n_i, n_o = forth.eta
     there, here = (bsdf_spectra(device, p, Precision.DOUBLE) for p in (forth, back))
     np.testing.assert_allclose(there / n_o**2, here / n_i**2, rtol=1e-9, atol=1e-14)
 
 
 @pytest.mark.parametrize("side", [reflection, transmission])
-def test_a_colour_is_the_weighted_sum(side: object, device: Device) -> None:
+def test_a_colour_is_the_weighted_sum(side: ProblemOf, device: Device) -> None:
     """bsdf_colour.cl adds up what bsdf.cl gives."""
-    problem = side(device, ("ggx", "smith", (0.3, 0.5)))  # type: ignore[operator]
+    problem = side(device, ("ggx", "smith", (0.3, 0.5)))
     weights = np.array([[0.1, 0.2, 0.3], [0.5, 0.0, -0.1], [0.0, 0.0, 2.0]])
     for precision, tolerance in ((Precision.SINGLE, 1e-5), (Precision.DOUBLE, 1e-13)):
         spectra = bsdf_spectra(device, problem, precision).astype(float)
@@ -140,13 +153,13 @@ def test_a_colour_is_the_weighted_sum(side: object, device: Device) -> None:
     "surface", [("ashikhmin-shirley", "smith", (0.3, 0.5)), ("ggx", "v-cavity", (0.1, 0.1))]
 )
 def test_precisions_and_lanes_agree(
-    surface: tuple[str, str, tuple[float, float]], side: object, device: Device
+    surface: tuple[str, str, tuple[float, float]], side: ProblemOf, device: Device
 ) -> None:
     """1, 4, 8 or 16 wavelengths at a time in either precision, and padding: the same numbers.
 
     Single precision to 1e-4 of the brightest pair: a refracting half vector is a difference of near equals.
     """
-    problem = side(device, surface)  # type: ignore[operator]
+    problem = side(device, surface)
     exact = bsdf_spectra(device, problem, Precision.DOUBLE)
     brightest = exact.max()
     for precision, tolerance in ((Precision.SINGLE, 1e-4), (Precision.DOUBLE, 1e-12)):
@@ -159,8 +172,10 @@ def test_each_pair_has_its_own_roughness(device: Device) -> None:
     """Two roughnesses in one problem are what each of them is alone."""
     alphas = np.array([[0.1, 0.2], [0.5, 1.0]])
     one = reflection(device, ("ashikhmin-shirley", "smith", (0.1, 0.2)))
-    two = replace(one, surface=microsurface(device, "ashikhmin-shirley", "smith", alphas),
-                  roughness=np.arange(PAIRS, dtype=np.int32) % 2)  # fmt: skip
+    facets = microsurface(device, "ashikhmin-shirley", "smith", alphas)
+    two = replace(
+        one, surface=facets, pairs=replace(one.pairs, roughness=np.arange(PAIRS, dtype=np.int32) % 2)
+    )
     got = bsdf_spectra(device, two, Precision.DOUBLE)
     for place, (alpha_x, alpha_y) in enumerate(alphas):
         alone = replace(one, surface=facets_of(device, "ashikhmin-shirley", "smith", alpha_x, alpha_y))
@@ -169,11 +184,11 @@ def test_each_pair_has_its_own_roughness(device: Device) -> None:
 
 
 @pytest.mark.parametrize("side", [reflection, transmission])
-def test_tiles_do_not_matter(side: object, device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tiles_do_not_matter(side: ProblemOf, device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     """A few pairs at a time or all at once: the same bytes; a tile uploads its own pairs."""
-    problem = side(device, ("ggx", "smith", (0.3, 0.3)))  # type: ignore[operator]
-    few = replace(problem, roughness=problem.roughness[:301], incoming=problem.incoming[:301],
-                  outgoing=problem.outgoing[:301])  # fmt: skip
+    problem = side(device, ("ggx", "smith", (0.3, 0.3)))
+    pairs = problem.pairs
+    few = replace(problem, pairs=Pairs(pairs.roughness[:301], pairs.incoming[:301], pairs.outgoing[:301]))
     whole = bsdf_spectra(device, few, Precision.SINGLE)
     monkeypatch.setattr(tiles, "_FIRST_TILE_EVALUATIONS", 500)
     monkeypatch.setattr(tiles, "_MOST_GROWTH", 1)

@@ -85,7 +85,8 @@ def test_film_kernels_build_without_a_warning(
 def test_facets_build_in_every_way(numbers: tuple[tuple[str, int], ...], device: Device) -> None:
     """Every distribution and masking in both precisions and every lane width: no warning, 120 kernels."""
     for precision, lanes in product(Precision, LANES):
-        kernel_of(device, Build("microfacets", precision, lanes, numbers))
+        kernel = kernel_of(device, Build("microfacets", precision, lanes, numbers))
+        assert kernel.function_name == "microfacets"
 
 
 @pytest.mark.parametrize("kernel", ROUGH_KERNELS)
@@ -94,4 +95,4 @@ def test_rough_kernels_build_in_every_width(kernel: str, device: Device) -> None
     ways = list(product(Precision, LANES, (0, 1)))
     for way, (precision, lanes, transmission) in enumerate(ways):
         numbers = (*FACET_NUMBERS[7 * way % len(FACET_NUMBERS)], ("TRANSMISSION", transmission))
-        kernel_of(device, Build(kernel, precision, lanes, numbers))
+        assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel

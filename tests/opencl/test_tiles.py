@@ -10,7 +10,7 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film import film_intensities
 from nacreous.opencl.film_problem import FilmProblem, Segment
 from nacreous.opencl.precision import Precision
-from nacreous.opencl.tiles import empty_table, row_tiles
+from nacreous.opencl.tiles import empty_table, empty_tables, row_tiles
 
 
 @given(rows=st.integers(1, 5000), evaluations=st.integers(1, 10**9), size=st.integers(1, 10**8))
@@ -59,6 +59,17 @@ def test_results_do_not_depend_on_the_tiles(
     tiled = film_intensities(device, _problem(), Precision.SINGLE, lanes=lanes)
     for name, values in whole.items():
         assert values.tobytes() == tiled[name].tobytes()
+
+
+def test_tables_of_one_piece_do_not_overlap() -> None:
+    """Each keeps what is written to it, and begins where a lane may where its rows are whole lanes."""
+    tables = empty_tables(3, 5, 16, np.float32)
+    for mark, table in enumerate(tables):
+        assert table.shape == (5, 16)
+        assert table.ctypes.data % 64 == 0
+        table[:] = mark
+    assert [set(table.ravel()) for table in tables] == [{0}, {1}, {2}]
+    assert all(table.base is not None for table in tables)
 
 
 def test_what_an_observer_raises_ends_the_work(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,9 +8,7 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.precision import Precision
 from nacreous.tables.computed import grid_of
-from nacreous.tables.facet_film import FACET_COSINES, FacetFilm, cosine_weighted_nodes, facet_film
-from nacreous.tables.film import Grid
-from nacreous.tables.solver import film_solver
+from nacreous.tables.facet_film import FacetFilm, cosine_weighted_nodes, facet_film
 from reference import film as reference_film
 from reference_facets import FloatArray
 
@@ -21,10 +19,7 @@ ONE = np.ones(1)
 def film_of(device: Device, *layers: dict[str, object], substrate: object = GLASS) -> FacetFilm:
     """Return the film on facets, in vacuum."""
     spec = rough_spec({"alpha_x": 0.3}, *layers, substrate=substrate)
-    grid = grid_of(spec)
-    on_facets = Grid(grid.thickness_scale, FACET_COSINES, grid.wavelength_nm)
-    solver = film_solver(device, spec.stack, on_facets, Precision.SINGLE)
-    return facet_film(solver, grid.thickness_scale, grid.wavelength_nm)
+    return facet_film(device, spec.stack, grid_of(spec), Precision.SINGLE)
 
 
 def reference(thickness_nm: float, cosines: FloatArray) -> tuple[FloatArray, FloatArray]:

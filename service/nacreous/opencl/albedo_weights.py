@@ -1,5 +1,6 @@
 """Which angles to its facets a rough surface takes light at: the host of kernels/albedo_weights.cl."""
 
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -7,6 +8,7 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
+from nacreous.opencl.film_colour import Side
 from nacreous.opencl.film_problem import upload
 from nacreous.opencl.microsurface import Microsurface, facet_rows, surface_arguments
 from nacreous.opencl.precision import Precision
@@ -14,7 +16,7 @@ from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles, step_of
 from nacreous.optics.facets import FacetRule, facet_quadrature, incident_azimuths
 
-__all__ = ["reflection_weights", "transmission_weights"]
+__all__ = ["AlbedoProblem", "albedo_weights"]
 
 _MOST_FACETS = 2**21
 """Facets that are held at a time, of all roughnesses together: 64 MB in double precision."""
@@ -22,74 +24,57 @@ LEAST_COSINE = 1e-5
 """Cosine that stands for grazing incidence, where masking and light vanish together."""
 
 
-def reflection_weights(
+@dataclass(frozen=True, eq=False)
+class AlbedoProblem:
+    """The geometry of an albedo.
+
+    Parameters
+    ----------
+    surface : Microsurface
+    side : Side
+        Whether its facets reflect all light, or transmit all of it.
+    cos_theta : float array, shape (A,)
+    nodes : int
+        Cosines at the facets, equally spaced over [0, 1], that the film is known at.
+    rule : FacetRule
+    eta : float
+        Index of the incident medium over that of the substrate, by which transmitted light is refracted.
+    """
+
+    surface: Microsurface
+    side: Side
+    cos_theta: NDArray[np.float64]
+    nodes: int
+    rule: FacetRule
+    eta: float = 1.0
+
+
+def albedo_weights(
     device: Device,
-    surface: Microsurface,
-    cos_theta: NDArray[np.float64],
-    nodes: int,
-    rule: FacetRule,
+    problem: AlbedoProblem,
     precision: Precision,
     *,
     observer: Observer | None = None,
     lanes: int | None = None,
 ) -> NDArray[np.float64]:
-    """Share of the light from each angle that is reflected at each node, if every facet reflects all.
+    """Share of the light from each angle that leaves by facets at each node, shape (R, A, nodes).
 
-    Their product with the film's R at the nodes, cosines equally spaced over [0, 1], is the albedo; their
-    sum is that of a perfect mirror's facets.
-
-    An anisotropic surface's are averaged over the azimuths of the light.
-
-    Returns
-    -------
-    float array, shape (R, A, nodes)
+    Its product with the film's R or T at the nodes is the albedo; its sum is that of facets which reflect or
+    transmit everything. An anisotropic surface's is the mean over the azimuths of the light.
 
     Raises
     ------
     BudgetError
         The array is larger than the byte budget; nothing is allocated.
     """
-    return _weights(device, surface, cos_theta, nodes, rule, precision, 0, 1.0, observer, lanes)
-
-
-def transmission_weights(
-    device: Device,
-    surface: Microsurface,
-    cos_theta: NDArray[np.float64],
-    nodes: int,
-    rule: FacetRule,
-    precision: Precision,
-    eta: float,
-    *,
-    observer: Observer | None = None,
-    lanes: int | None = None,
-) -> NDArray[np.float64]:
-    """Share of the light that is refracted at each node, if every facet transmits all: (R, A, nodes).
-
-    `eta` is the index of the incident medium over that of the substrate. Raises `BudgetError`.
-    """
-    return _weights(device, surface, cos_theta, nodes, rule, precision, 1, eta, observer, lanes)
-
-
-def _weights(
-    device: Device,
-    surface: Microsurface,
-    cos_theta: NDArray[np.float64],
-    nodes: int,
-    rule: FacetRule,
-    precision: Precision,
-    transmission: int,
-    eta: float,
-    observer: Observer | None,
-    lanes: int | None,
-) -> NDArray[np.float64]:
-    shape = (len(surface.alphas), len(cos_theta), nodes)
+    surface, rule, nodes = problem.surface, problem.rule, problem.nodes
+    shape = (len(surface.alphas), len(problem.cos_theta), nodes)
     require(f"weights of {' x '.join(map(str, shape))} nodes", int(np.prod(shape)) * 3 * 8)
     lanes = lanes or device.lanes(precision)
-    numbers = (*surface.build_numbers, ("TRANSMISSION", transmission))
+    numbers = (*surface.build_numbers, ("TRANSMISSION", problem.side.value))
     kernel = kernel_of(device, Build("albedo_weights", precision, lanes, numbers))
-    incidence = upload(device, np.maximum(cos_theta, LEAST_COSINE), precision.dtype)
-    scalars = np.array(eta, precision.dtype)[()], np.int32(nodes)
+    incidence = upload(device, np.maximum(problem.cos_theta, LEAST_COSINE), precision.dtype)
+    scalars = np.array(problem.eta, precision.dtype)[()], np.int32(nodes)
     phi = incident_azimuths(surface.alphas, rule)
     groups = _groups(len(surface.alphas), phi.size * rule.facets(surface.alphas))
     weights = np.zeros(shape)

@@ -10,16 +10,33 @@ from numpy.typing import NDArray
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
-from nacreous.opencl.film_problem import upload
+from nacreous.opencl.film_problem import upload, upload_colour_weights
 from nacreous.opencl.microsurface import Microsurface, surface_arguments
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, Tile, TileRunner, empty_table, row_tiles
 
-__all__ = ["BsdfProblem", "bsdf_colours", "bsdf_spectra"]
+__all__ = ["BsdfProblem", "Pairs", "bsdf_colours", "bsdf_spectra"]
 
 _FACET_EVALUATIONS = 50
 """What the geometry of a pair costs, in evaluations of a layer."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Pairs of directions, each at one of a surface's roughnesses.
+
+    Parameters
+    ----------
+    roughness : int array, shape (P,)
+        Place on the axis of roughnesses.
+    incoming, outgoing : float arrays, shape (P, 3)
+        Unit vectors away from the surface: `incoming` above it, `outgoing` above it for f_r, below for f_t.
+    """
+
+    roughness: NDArray[np.int32]
+    incoming: NDArray[np.float64]
+    outgoing: NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,19 +52,14 @@ class BsdfProblem:
         Unpolarised R or T at K cosines equally spaced over [0, 1].
     eta : float array, shape (2, L)
         Index of the incident medium and of the substrate.
-    roughness : int array, shape (P,)
-        Which of the surface's roughnesses each pair of directions meets.
-    incoming, outgoing : float arrays, shape (P, 3)
-        Unit vectors away from the surface: above it, and for f_t below it.
+    pairs : Pairs
     """
 
     surface: Microsurface
     side: Side
     film: NDArray[np.float64]
     eta: NDArray[np.float64]
-    roughness: NDArray[np.int32]
-    incoming: NDArray[np.float64]
-    outgoing: NDArray[np.float64]
+    pairs: Pairs
 
 
 def bsdf_spectra(
@@ -62,7 +74,7 @@ def bsdf_spectra(
 
     Raises `BudgetError` before anything is allocated.
     """
-    rows, wavelengths = len(problem.roughness), problem.film.shape[1]
+    rows, wavelengths = len(problem.pairs.roughness), problem.film.shape[1]
     require(f"a BSDF of {rows:,} x {wavelengths:,} numbers", rows * wavelengths * _item(precision))
     f = empty_table(rows, wavelengths, precision.dtype)
     _run(device, "bsdf", problem, precision, lanes, observer, f, None)
@@ -82,7 +94,7 @@ def bsdf_colours(
 
     Raises `BudgetError` before anything is allocated.
     """
-    rows = len(problem.roughness)
+    rows = len(problem.pairs.roughness)
     require(f"the colours of a BSDF of {rows:,} pairs of directions", rows * 3 * _item(precision))
     colour = empty_table(rows, 3, precision.dtype)
     _run(device, "bsdf_colour", problem, precision, lanes, observer, colour, colour_weights)
@@ -117,25 +129,25 @@ def _run(
         np.int32(len(problem.film)),
         np.int32(stride),
     )
-    weights = () if colour_weights is None else (_colour_buffer(device, colour_weights, stride, precision),)
+    weights = (
+        ()
+        if colour_weights is None
+        else (upload_colour_weights(device, colour_weights, stride, precision.dtype),)
+    )
     runner = TileRunner(device, kernel, (result,), columns, (1,))
     for tile in row_tiles(len(result), stride + _FACET_EVALUATIONS, columns * _item(precision), observer):
-        pairs = _pairs(device, problem, tile, precision)
+        pairs = _uploaded(device, problem.pairs, tile, precision)
         bounds = (np.int32(0), np.int32(tile.rows))
         runner.run(tile, (*surface, *pairs, *shared, *bounds, *weights), (tile.rows,))
 
 
-def _pairs(device: Device, problem: BsdfProblem, tile: Tile, precision: Precision) -> Iterator[Any]:
+def _uploaded(device: Device, pairs: Pairs, tile: Tile, precision: Precision) -> Iterator[Any]:
     """Upload the pairs of a tile, so that the device never holds all of them."""
     rows = slice(tile.origin, tile.origin + tile.rows)
-    yield upload(device, problem.roughness[rows], np.int32)
-    yield upload(device, problem.incoming[rows], precision.dtype)
-    yield upload(device, problem.outgoing[rows], precision.dtype)
+    yield upload(device, pairs.roughness[rows], np.int32)
+    yield upload(device, pairs.incoming[rows], precision.dtype)
+    yield upload(device, pairs.outgoing[rows], precision.dtype)
 
 
 def _padded(values: NDArray[np.float64], stride: int) -> NDArray[np.float64]:
     return np.pad(values, ((0, 0), (0, stride - values.shape[1])), mode="edge")
-
-
-def _colour_buffer(device: Device, weights: NDArray[np.float64], stride: int, precision: Precision) -> Any:  # noqa: ANN401 - pyopencl is untyped
-    return upload(device, np.pad(weights, ((0, 0), (0, stride - weights.shape[1]))), precision.dtype)

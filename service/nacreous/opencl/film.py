@@ -8,7 +8,7 @@ from nacreous.opencl.device import Device
 from nacreous.opencl.film_problem import FilmProblem, film_buffers
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles
+from nacreous.opencl.tiles import Observer, TileRunner, empty_tables, row_tiles
 
 __all__ = ["GROUPS", "NAMES", "film_intensities", "spectral_rows"]
 
@@ -60,9 +60,9 @@ def spectral_rows(
     lanes = lanes or device.lanes(precision)
     kernel = kernel_of(device, Build(kernel_name, precision, lanes, problem.build_numbers))
     buffers = film_buffers(device, problem, precision, lanes)
-    results = {name: empty_table(rows, wavelengths, precision.dtype) for name in names}
-    runner = TileRunner(device, kernel, tuple(results.values()), buffers.stride, GROUPS[device.info.kind])
+    results = empty_tables(len(names), rows, wavelengths, precision.dtype)
+    runner = TileRunner(device, kernel, results, buffers.stride, GROUPS[device.info.kind])
     bytes_a_row = buffers.stride * len(names) * item
     for tile in row_tiles(rows, problem.layer_evaluations_a_row, bytes_a_row, observer):
         runner.run(tile, (*buffers.arguments, *tile.bounds), (buffers.stride // lanes, tile.rows))
-    return {name: values.reshape(problem.shape) for name, values in results.items()}
+    return {name: values.reshape(problem.shape) for name, values in zip(names, results, strict=True)}

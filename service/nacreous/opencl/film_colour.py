@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
-from nacreous.opencl.film_problem import FilmProblem, film_buffers, upload
+from nacreous.opencl.film_problem import FilmProblem, film_buffers, upload_colour_weights
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles
@@ -52,8 +52,7 @@ def film_colour(
     numbers = (*problem.build_numbers, ("TRANSMISSION", side.value))
     kernel = kernel_of(device, Build("film_colour", precision, lanes, numbers))
     buffers = film_buffers(device, problem, precision, lanes)
-    padding = buffers.stride - colour_weights.shape[1]
-    weights = upload(device, np.pad(colour_weights, ((0, 0), (0, padding))), precision.dtype)
+    weights = upload_colour_weights(device, colour_weights, buffers.stride, precision.dtype)
     colour = empty_table(problem.rows, 3, precision.dtype)
     runner = TileRunner(device, kernel, (colour,), 3, _GROUPS[device.info.kind])
     for tile in row_tiles(problem.rows, problem.layer_evaluations_a_row, 3 * item, observer):

@@ -11,7 +11,15 @@ from numpy.typing import NDArray
 from nacreous.opencl.device import Device
 from nacreous.opencl.precision import Precision
 
-__all__ = ["THICK", "FilmBuffers", "FilmProblem", "Segment", "film_buffers", "upload"]
+__all__ = [
+    "THICK",
+    "FilmBuffers",
+    "FilmProblem",
+    "Segment",
+    "film_buffers",
+    "upload",
+    "upload_colour_weights",
+]
 
 THICK = 0
 """`Segment.repeat` of one thick layer, across which intensities are added."""
@@ -165,3 +173,8 @@ def upload(device: Device, array: NDArray[Any], dtype: Any) -> Any:  # noqa: ANN
 
     flags = cl.mem_flags.READ_ONLY | cl.mem_flags.COPY_HOST_PTR
     return cl.Buffer(device.context, flags, hostbuf=np.ascontiguousarray(array, dtype))
+
+
+def upload_colour_weights(device: Device, weights: NDArray[np.float64], stride: int, dtype: Any) -> Any:  # noqa: ANN401 - pyopencl is untyped
+    """Copy weights (3, L) into a buffer of (3, stride), in which what pads the wavelengths weighs nothing."""
+    return upload(device, np.pad(weights, ((0, 0), (0, stride - weights.shape[1]))), dtype)

@@ -11,7 +11,7 @@ from nacreous.opencl.film_problem import upload
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import TileRunner, empty_table, row_tiles
-from nacreous.optics.facets import FacetRule, facet_quadrature
+from nacreous.optics.facets import FacetRule, facet_quadrature, is_isotropic
 
 __all__ = ["Microsurface", "facet_rows", "microsurface", "surface_arguments"]
 
@@ -62,7 +62,7 @@ def microsurface(
     areas = np.zeros((len(alphas), *_area_shape(distribution, masking, alphas)))
     if areas.shape[1:] != _NO_AREAS:
         numbers = _numbers(distribution, masking, areas.shape[1:])
-        if _isotropic(alphas):  # the same from x as from y
+        if is_isotropic(alphas):  # the same from x as from y
             areas[:] = _projected_areas(device, distribution, numbers, alphas, 1.0)[:, :, None]
         else:
             for column, x_share in enumerate(np.linspace(0, 1, _AREA_AZIMUTHS)):
@@ -99,11 +99,7 @@ def _area_shape(distribution: str, masking: str, alphas: NDArray[np.float64]) ->
     """Cosines and azimuths of the table of areas; an isotropic surface looks the same from any azimuth."""
     if masking == "v-cavity" or distribution in _CLOSED_FORMS:
         return _NO_AREAS
-    return _AREA_COSINES, 2 if _isotropic(alphas) else _AREA_AZIMUTHS
-
-
-def _isotropic(alphas: NDArray[np.float64]) -> bool:
-    return bool((alphas[:, 0] == alphas[:, 1]).all())
+    return _AREA_COSINES, 2 if is_isotropic(alphas) else _AREA_AZIMUTHS
 
 
 def _projected_areas(

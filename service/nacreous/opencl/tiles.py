@@ -15,7 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 from nacreous.errors import DeviceError
 from nacreous.opencl.device import Device
 
-__all__ = ["Observer", "Tile", "TileRunner", "empty_table", "row_tiles", "step_of"]
+__all__ = ["Observer", "Tile", "TileRunner", "empty_table", "empty_tables", "row_tiles", "step_of"]
 
 Observer = Callable[[float], None]
 """Told the fraction done, 0 to 1, after every tile; what it raises ends the work."""
@@ -75,10 +75,20 @@ def row_tiles(
 
 def empty_table(rows: int, columns: int, dtype: DTypeLike) -> NDArray[Any]:
     """Memory that kernels may fill in place, of shape (rows, columns); its content is undefined."""
-    size = rows * columns * np.dtype(dtype).itemsize
+    (table,) = empty_tables(1, rows, columns, dtype)
+    return table
+
+
+def empty_tables(count: int, rows: int, columns: int, dtype: DTypeLike) -> tuple[NDArray[Any], ...]:
+    """Return `count` tables as `empty_table` does, in one piece of memory.
+
+    From 4 MB on NumPy asks the system for large pages. Pieces below that are given back after every table,
+    and the next pays for each page again when it first writes there.
+    """
+    size = count * rows * columns * np.dtype(dtype).itemsize
     memory = np.empty(size + _ALIGNMENT, np.uint8)
     start = -memory.ctypes.data % _ALIGNMENT
-    return memory[start : start + size].view(dtype).reshape(rows, columns)
+    return tuple(memory[start : start + size].view(dtype).reshape(count, rows, columns))
 
 
 @dataclass(frozen=True, eq=False)

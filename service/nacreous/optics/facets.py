@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from nacreous.optics.quadrature import gauss_legendre
 
-__all__ = ["FacetRule", "facet_quadrature", "incident_azimuths"]
+__all__ = ["FacetRule", "facet_quadrature", "incident_azimuths", "is_isotropic"]
 
 FloatArray = NDArray[np.float64]
 
@@ -43,7 +43,7 @@ class FacetRule:
 
     def facets(self, alphas: FloatArray) -> int:
         """Facets at each of the roughnesses `alphas`, (R, 2), and for each azimuth of the light."""
-        return self.tilts * self.directions * (1 if _isotropic(alphas) else 2)
+        return self.tilts * self.directions * (1 if is_isotropic(alphas) else 2)
 
 
 def incident_azimuths(alphas: FloatArray, rule: FacetRule) -> FloatArray:
@@ -51,7 +51,7 @@ def incident_azimuths(alphas: FloatArray, rule: FacetRule) -> FloatArray:
 
     One, 0, where all `alphas`, shape (R, 2), are isotropic.
     """
-    if _isotropic(alphas):
+    if is_isotropic(alphas):
         return np.zeros(1)
     return np.pi / 2 * (np.arange(rule.incidence) + 0.5) / rule.incidence
 
@@ -89,7 +89,8 @@ def facet_quadrature(distribution: str, alphas: FloatArray, rule: FacetRule, phi
     return facets.reshape(*facets.shape[:2], -1)
 
 
-def _isotropic(alphas: FloatArray) -> bool:
+def is_isotropic(alphas: FloatArray) -> bool:
+    """Tell whether surfaces of `alphas`, shape (R, 2), look the same from any azimuth."""
     return bool((alphas[:, 0] == alphas[:, 1]).all())
 
 
@@ -103,7 +104,7 @@ def _turns(alphas: FloatArray, rule: FacetRule, phi: float) -> tuple[FloatArray,
     beside = np.pi / 2 * distance**2
     turn = np.concatenate([np.pi / 2 - beside, np.pi / 2 + beside])
     weight = np.tile(gauss * distance, 2)
-    if not _isotropic(alphas):
+    if not is_isotropic(alphas):
         turn, weight = np.concatenate([turn, turn + np.pi]), np.tile(weight, 2) / 2
     grazed = np.arctan2(alphas[:, 1:] * np.sin(phi), alphas[:, :1] * np.cos(phi))  # (R, 1)
     return grazed + turn, weight

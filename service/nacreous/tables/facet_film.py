@@ -10,26 +10,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.precision import Precision
 from nacreous.optics.quadrature import gauss_legendre
-from nacreous.optics.stack import sample_stack
-from nacreous.tables.film import Grid
-from nacreous.tables.solver import FilmSolver, probe_of
+from nacreous.optics.stack import Stack, sample_stack
+from nacreous.tables.film import SINGLE_TOLERANCE, Grid
+from nacreous.tables.solver import FilmSolver, film_solver, probe_of
 
-__all__ = ["FACET_COSINES", "FacetFilm", "cosine_weighted_nodes", "facet_film"]
+__all__ = ["FacetFilm", "cosine_weighted_nodes", "facet_film", "on_facets"]
 
 FloatArray = NDArray[np.float64]
 
 SETTLED = 1e-5
 """Error of R and T between the nodes at which they are close enough."""
-SINGLE_TOLERANCE = 2e-5
-"""Measured rounding of R and T above which a film is solved in double precision."""
 _FEWEST, _MOST = 65, 4097
 _PROBE_SCALES, _PROBE_WAVELENGTHS = 3, 64
 _MEAN_NODES = 64
 
-FACET_COSINES = np.linspace(0.0, 1.0, 65)
+_COSINES = np.linspace(0.0, 1.0, 65)
 """Cosines over all of the angles to a facet, for what a film needs on a grid."""
 
 
@@ -87,13 +86,19 @@ def cosine_weighted_nodes(count: int) -> tuple[FloatArray, FloatArray]:
     return np.sqrt(squared), weights
 
 
-def facet_film(solver: FilmSolver, thickness_scale: FloatArray, wavelength_nm: FloatArray) -> FacetFilm:
+def on_facets(grid: Grid) -> Grid:
+    """Return a table's grid with the angles that facets of any tilt see the light at."""
+    return replace(grid, cos_theta=_COSINES)
+
+
+def facet_film(device: Device, stack: Stack, grid: Grid, asked: Precision) -> FacetFilm:
     """Settle how many nodes a film needs, and take double precision where rounding exceeds 2e-5.
 
     A film between media of the same index, or one with a critical angle, has a kink that no cubic follows:
     the error of the nodes is then what is left at 4,097 of them.
     """
-    probe = probe_of(Grid(thickness_scale, np.ones(1), wavelength_nm), (_PROBE_SCALES, 1, _PROBE_WAVELENGTHS))
+    solver = film_solver(device, stack, on_facets(grid), asked)
+    probe = probe_of(grid, (_PROBE_SCALES, 1, _PROBE_WAVELENGTHS))
     exact = replace(solver, precision=Precision.DOUBLE)
     nodes, values = _FEWEST, _both(exact, probe, _FEWEST)
     while True:

@@ -20,6 +20,7 @@ from nacreous.optics.stack import SampledStack, Stack, sample_stack
 from nacreous.tables.thickness_spread import ThicknessSpread
 
 __all__ = [
+    "SINGLE_TOLERANCE",
     "Grid",
     "checked_intensities",
     "film_problem",
@@ -35,6 +36,9 @@ SINGLE_PRECISION_PHASE = 200.0
 
 A phase of 200 is rounded to 1e-5 of a radian in 24 bits; the goldens with larger ones show errors above 1e-5.
 """
+
+SINGLE_TOLERANCE = 2e-5
+"""Measured rounding of R and T above which a film is solved in double precision."""
 
 CLEAR_K = 1e-3
 """Below this k a layer damps a resonance too little for single precision."""

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from kernel_surface import COMBINATIONS, ISOTROPIC, directions_of, random_directions, rough_spec, solvers_of
+from nacreous.opencl.bsdf import Pairs
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.precision import Precision
 from nacreous.optics.colour import colour_system
 from nacreous.optics.stack import sample_stack
-from nacreous.tables.bsdf.solver import BsdfSolver, Pairs
+from nacreous.tables.bsdf.solver import BsdfSolver
 from nacreous.tables.colour import Colouring
 from reference_facets import Surface
 from reference_surface import Coating, f_r, f_t

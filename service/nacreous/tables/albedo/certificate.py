@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nacreous.optics.colour import lab
-from nacreous.optics.delta_e import delta_e_2000
 from nacreous.tables.albedo.solver import AlbedoGeometry, AlbedoSolver
 from nacreous.tables.cells import Cells, middle_of
 from nacreous.tables.colour import Colouring
+from nacreous.tables.colour_figures import NO_COLOUR_FIGURES, colour_figures, colours_apart
 from nacreous.tables.figures import Figures
 from nacreous.tables.film import Grid
 
@@ -24,7 +23,6 @@ __all__ = ["AlbedoCells", "AlbedoCertificate", "certify", "colour_differences"]
 FloatArray = NDArray[np.float64]
 
 _ROUGHNESS_CELLS, _SCALE_CELLS, _ANGLE_CELLS, _WAVELENGTH_CELLS = 6, 4, 24, 32
-_GAMUT_ROUNDING = 1e-5
 
 
 @dataclass(frozen=True)
@@ -97,7 +95,7 @@ def certify(
     exact = _Samples.at_middles(solver.exact(), cells, waves)
     texels, truth = corners.spectra(waves.corners), exact.spectra(waves.middles)  # (sides, R, S, A, L)
     error = np.abs(middle_of(texels, 4) - truth)
-    colour = _NO_COLOUR if colouring is None else _colour_figures(corners, exact, colouring)
+    colour = NO_COLOUR_FIGURES if colouring is None else _colour_figures(corners, exact, colouring)
     return AlbedoCertificate(
         held_out_points=error[0].size,
         albedo_error_max=float(error.max()),
@@ -117,7 +115,7 @@ def colour_differences(
     """CIEDE2000 amid cells of colours interpolated from their corners and computed there, (sides, …)."""
     waves = Cells(grid.wavelength_nm, grid.wavelength_nm)
     corners, middles = _Samples.at_corners(solver, cells, waves), _Samples.at_middles(solver, cells, waves)
-    return _differences(corners.colours(colouring), middles.colours(colouring), colouring)
+    return _apart(corners.colours(colouring), middles.colours(colouring), colouring)
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,27 +172,10 @@ class _Samples:
         return np.stack([self._placed(self.solver.colours(*task, side)) for side in self.solver.sides])
 
 
-_NO_COLOUR: dict[str, Any] = {
-    "delta_e_max": None,
-    "delta_e_p99": None,
-    "out_of_gamut": None,
-    "quadrature_error": None,
-}
-
-
 def _colour_figures(corners: _Samples, exact: _Samples, colouring: Colouring) -> dict[str, Any]:
     texels = corners.colours(colouring)
-    differences = _differences(texels, exact.colours(colouring), colouring)
-    outside = (texels < -_GAMUT_ROUNDING) | (texels > 1 + _GAMUT_ROUNDING)
-    return {
-        "delta_e_max": float(differences.max()),
-        "delta_e_p99": float(np.quantile(differences, 0.99)),
-        "out_of_gamut": float(outside.any(axis=-1).mean()),
-        "quadrature_error": colouring.error,
-    }
+    return colour_figures(_apart(texels, exact.colours(colouring), colouring), texels, colouring)
 
 
-def _differences(corners: FloatArray, middles: FloatArray, colouring: Colouring) -> FloatArray:
-    system = colouring.system
-    between, exact = (lab(system.to_xyz(colour), system.white) for colour in (middle_of(corners, 3), middles))
-    return delta_e_2000(between, exact)
+def _apart(corners: FloatArray, middles: FloatArray, colouring: Colouring) -> FloatArray:
+    return colours_apart(middle_of(corners, 3), middles, colouring.system)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.errors import SpecError
-from nacreous.opencl.albedo_weights import reflection_weights, transmission_weights
+from nacreous.opencl.albedo_weights import AlbedoProblem, albedo_weights
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.microsurface import Microsurface, microsurface
@@ -27,9 +27,11 @@ from nacreous.opencl.tiles import Observer, step_of
 from nacreous.optics.facets import FacetRule
 from nacreous.optics.surface import Surface, alphas_at
 from nacreous.tables.colour import Colouring
-from nacreous.tables.facet_film import FacetFilm, cosine_weighted_nodes
+from nacreous.tables.computed import asked_precision, grid_of
+from nacreous.tables.facet_film import FacetFilm, cosine_weighted_nodes, facet_film
 from nacreous.tables.film import Grid
 from nacreous.tables.solver import probe
+from nacreous.tables.spec import Spec, roughness_values, surface_of
 
 __all__ = ["AlbedoGeometry", "AlbedoSolver", "albedo_solver", "check_albedo", "scattered_colour"]
 
@@ -132,14 +134,14 @@ class AlbedoSolver:
         facets = self.microsurface(roughness)
         many = self.rule.facets(facets.alphas) > _MOST_IN_SINGLE
         precision = Precision.DOUBLE if many else self.precision
-        task = (self.device, facets, cos_theta, self.film.nodes, self.rule, precision)
         ratios = self._ratios(wavelength_nm)
-        steps = 1 + ratios.size
-        reflection = reflection_weights(*task, observer=step_of(observer, 0, steps))
-        transmission = [
-            transmission_weights(*task, float(eta), observer=step_of(observer, 1 + j, steps))
-            for j, eta in enumerate(ratios)
-        ]
+        reflected = AlbedoProblem(facets, Side.REFLECTION, cos_theta, self.film.nodes, self.rule)
+        refracted = [replace(reflected, side=Side.TRANSMISSION, eta=float(eta)) for eta in ratios]
+        problems = [reflected, *refracted]
+        reflection, *transmission = (
+            albedo_weights(self.device, problem, precision, observer=step_of(observer, at, len(problems)))
+            for at, problem in enumerate(problems)
+        )
         shape = (ratios.size, *reflection.shape)
         return AlbedoGeometry(reflection, np.array(transmission).reshape(shape), ratios)
 
@@ -242,27 +244,33 @@ def scattered_colour(film: FloatArray, mirror: FloatArray) -> FloatArray:
     return film**2 * E / (1 - film * (1 - E))
 
 
-def albedo_solver(
-    device: Device,
-    surface: Surface,
-    film: FacetFilm,
-    roughness: FloatArray,
-    grid: Grid,
-    precision: Precision,
-) -> AlbedoSolver:
-    """Settle the rule that an albedo needs: a thick film has fringes over the facets of a rough surface.
+def albedo_solver(device: Device, spec: Spec) -> AlbedoSolver:
+    """Settle what the albedo of a spec needs: its film at the facets, and a rule for them.
+
+    Raises
+    ------
+    SpecError
+        A material cannot be used at a wavelength.
+    """
+    asked, grid, surface = asked_precision(spec), grid_of(spec), surface_of(spec)
+    film = facet_film(device, spec.stack, grid, asked)
+    solver = AlbedoSolver(device, surface, film, _RULES[surface.anisotropic], asked)
+    return _settled(solver, roughness_values(spec), grid)
+
+
+def _settled(solver: AlbedoSolver, roughness: FloatArray, grid: Grid) -> AlbedoSolver:
+    """Double the rule until the albedo no longer changes: a thick film has fringes over the facets.
 
     It is tried at a few roughnesses of (R,), at the largest thickness scale and the shortest wavelength.
     """
-    solver = AlbedoSolver(device, surface, film, _RULES[surface.anisotropic], precision)
-    film_R = film.spectra(grid.thickness_scale[-1:], grid.wavelength_nm[:1])[Side.REFLECTION]
+    film = solver.film.spectra(grid.thickness_scale[-1:], grid.wavelength_nm[:1])[Side.REFLECTION]
 
     def albedo(solver: AlbedoSolver) -> FloatArray:
         geometry = solver.geometry(probe(roughness, 3), _PROBE_ANGLES[::4], np.zeros(0))
-        return _product(geometry.reflection, film_R)
+        return _product(geometry.reflection, film)
 
     before = albedo(solver)
-    for _ in range(_MOST_DOUBLINGS[surface.anisotropic]):
+    for _ in range(_MOST_DOUBLINGS[solver.surface.anisotropic]):
         finer = replace(solver, rule=solver.rule.doubled())
         after = albedo(finer)
         if np.abs(after - before).max() <= SETTLED:

@@ -31,10 +31,9 @@ from nacreous.tables.computed import (
     grid_of,
     run,
 )
-from nacreous.tables.facet_film import FACET_COSINES, cosine_weighted_nodes, facet_film
+from nacreous.tables.facet_film import cosine_weighted_nodes, on_facets
 from nacreous.tables.film import Grid
-from nacreous.tables.solver import film_solver
-from nacreous.tables.spec import Spec, roughness_values, surface_of
+from nacreous.tables.spec import Spec, roughness_values
 from nacreous.tables.table import Part, Variable
 
 __all__ = ["compute_albedo"]
@@ -54,10 +53,9 @@ def compute_albedo(
     """Compute the `wanted` parts of an albedo table; raises what `tabulate_table` raises."""
     grid, roughness = grid_of(spec), roughness_values(spec)
     _require(spec, roughness, grid, wanted)
-    solver = _solver(device, spec, roughness, grid)
+    solver = albedo_solver(device, spec)
     check_albedo(solver, roughness, grid)
-    on_facets = Grid(grid.thickness_scale, FACET_COSINES, grid.wavelength_nm)
-    colouring = colouring_of(spec, solver.film.solver, on_facets)
+    colouring = colouring_of(spec, solver.film.solver, on_facets(grid))
     if spec.accuracy.delta_e is not None and colouring is not None:
         roughness, grid = refined(solver, roughness, grid, colouring, spec.accuracy.delta_e)
     certificate = certify(solver, roughness, grid, colouring)
@@ -77,15 +75,6 @@ def _require(spec: Spec, roughness: NDArray[np.float64], grid: Grid, wanted: fro
     sizes = " x ".join(map(str, shape))
     item = np.dtype(asked_precision(spec).dtype).itemsize
     require(f"an albedo table of {sizes} x {numbers} numbers", int(np.prod(shape)) * numbers * (8 + item))
-
-
-def _solver(device: Device, spec: Spec, roughness: NDArray[np.float64], grid: Grid) -> AlbedoSolver:
-    asked = asked_precision(spec)
-    on_facets = Grid(grid.thickness_scale, FACET_COSINES, grid.wavelength_nm)
-    film = facet_film(
-        film_solver(device, spec.stack, on_facets, asked), grid.thickness_scale, grid.wavelength_nm
-    )
-    return albedo_solver(device, surface_of(spec), film, roughness, grid, asked)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nacreous.opencl.bsdf import Pairs
 from nacreous.opencl.film_colour import Side
-from nacreous.optics.colour import lab
-from nacreous.optics.delta_e import delta_e_2000
 from nacreous.tables.bsdf.directions import DirectionGrid
-from nacreous.tables.bsdf.solver import BsdfSolver, Pairs
+from nacreous.tables.bsdf.solver import BsdfSolver
 from nacreous.tables.cells import Cells, middle_of
 from nacreous.tables.colour import Colouring
+from nacreous.tables.colour_figures import NO_COLOUR_FIGURES, colour_figures, colours_apart
 from nacreous.tables.figures import Figures
 
 __all__ = ["BsdfCertificate", "certify"]
@@ -24,7 +24,6 @@ __all__ = ["BsdfCertificate", "certify"]
 FloatArray = NDArray[np.float64]
 
 _CELLS = {"roughness": 3, "phi_i": 2, "theta_i": 8, "theta_o": 16, "phi": 8, "wavelength": 8}
-_GAMUT_ROUNDING = 1e-5
 _DARK = 1e-3
 """Part of the largest value below which a relative difference says nothing."""
 
@@ -101,7 +100,7 @@ def certify(
         reciprocity_error_max=_reciprocity_error(solver, cells, waves),
         energy_max=energy_max,
         nonfinite=int(np.count_nonzero(~np.isfinite(errors))),
-        **(_NO_COLOUR if colouring is None else _colour_figures(solver, cells, sides, colouring)),
+        **(NO_COLOUR_FIGURES if colouring is None else _colour_figures(solver, cells, sides, colouring)),
     )
 
 
@@ -153,37 +152,24 @@ def _reciprocity_error(solver: BsdfSolver, cells: _DirectionCells, waves: Cells)
     return float((np.abs(there - back) / np.maximum(np.maximum(there, back), 1e-30)).max())
 
 
-_NO_COLOUR: dict[str, Any] = {
-    "delta_e_max": None,
-    "delta_e_p99": None,
-    "out_of_gamut": None,
-    "quadrature_error": None,
-}
-
-
 def _colour_figures(
     solver: BsdfSolver, cells: _DirectionCells, sides: tuple[Side, ...], colouring: Colouring
 ) -> dict[str, Any]:
-    corners, middles = cells.corners(), cells.middles()
-    differences, outside = [], []
-    for side in sides:
-        samples = solver.colours(corners.pairs(side), side, colouring)
-        between = middle_of(np.asarray(samples, np.float64).reshape(*corners.shape, 3), 4)
-        pairs: Pairs = middles.pairs(side)
-        exact = solver.exact().colours(pairs, side, colouring)
-        shown = (_shown(np.reshape(colour, (-1, 3)), pairs) for colour in (between, exact))
-        between_lab, exact_lab = (
-            lab(colouring.system.to_xyz(colour), colouring.system.white) for colour in shown
-        )
-        differences.append(delta_e_2000(between_lab, exact_lab))
-        outside.append((samples < -_GAMUT_ROUNDING).any(axis=-1))
-    all_differences = np.concatenate(differences)
-    return {
-        "delta_e_max": float(all_differences.max()),
-        "delta_e_p99": float(np.quantile(all_differences, 0.99)),
-        "out_of_gamut": float(np.concatenate(outside).mean()),
-        "quadrature_error": colouring.error,
-    }
+    compared = [_compared_colours(solver, cells, side, colouring) for side in sides]
+    apart, samples = (np.concatenate([c[k] for c in compared]) for k in range(2))
+    return colour_figures(apart, samples, colouring, brightest=np.inf)
+
+
+def _compared_colours(
+    solver: BsdfSolver, cells: _DirectionCells, side: Side, colouring: Colouring
+) -> tuple[FloatArray, FloatArray]:
+    """Differences in the middle of cells, flat, and colours at their corners, (N, 3)."""
+    corners, pairs = cells.corners(), cells.middles().pairs(side)
+    samples = np.asarray(solver.colours(corners.pairs(side), side, colouring), np.float64)
+    between = middle_of(samples.reshape(*corners.shape, 3), 4)
+    exact = solver.exact().colours(pairs, side, colouring)
+    shown, truth = (_shown(np.reshape(colour, (-1, 3)), pairs) for colour in (between, exact))
+    return colours_apart(shown, truth, colouring.system), samples
 
 
 def _shown(colour: NDArray[np.floating], pairs: Pairs) -> FloatArray:

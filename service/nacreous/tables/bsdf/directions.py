@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nacreous.opencl.bsdf import Pairs
 from nacreous.opencl.film_colour import Side
-from nacreous.tables.bsdf.solver import Pairs
 
 __all__ = ["DirectionGrid"]
 

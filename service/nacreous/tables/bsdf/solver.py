@@ -11,43 +11,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from nacreous.opencl.bsdf import BsdfProblem, bsdf_colours, bsdf_spectra
+from nacreous.opencl.bsdf import BsdfProblem, Pairs, bsdf_colours, bsdf_spectra
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.microsurface import Microsurface
 from nacreous.opencl.tiles import Observer
 from nacreous.tables.albedo.solver import AlbedoSolver, albedo_solver, scattered_colour
 from nacreous.tables.colour import Colouring
-from nacreous.tables.computed import asked_precision, grid_of
-from nacreous.tables.facet_film import FACET_COSINES, facet_film
-from nacreous.tables.film import Grid
-from nacreous.tables.solver import film_solver
-from nacreous.tables.spec import Spec, roughness_values, surface_of
+from nacreous.tables.spec import Spec, roughness_values
 
-__all__ = ["BsdfSolver", "Pairs", "bsdf_solver"]
+__all__ = ["BsdfSolver", "bsdf_solver"]
 
 FloatArray = NDArray[np.float64]
 
 SAME_INDEX = 1e-3
 """Difference of the indices of both media below which light passes straight on, all but unrefracted."""
 _LEAST_LOSS = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class Pairs:
-    """Pairs of directions, each at one of a surface's roughnesses.
-
-    Parameters
-    ----------
-    roughness : int array, shape (P,)
-        Place on the solver's axis of roughnesses.
-    incoming, outgoing : float arrays, shape (P, 3)
-        Unit vectors away from the surface: `incoming` above it, `outgoing` above it for f_r, below for f_t.
-    """
-
-    roughness: NDArray[np.int32]
-    incoming: FloatArray
-    outgoing: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +104,7 @@ class BsdfSolver:
 
     def _problem(self, pairs: Pairs, side: Side, film: FloatArray, wavelength_nm: FloatArray) -> BsdfProblem:
         eta = self.albedo.film.indices(wavelength_nm)
-        return BsdfProblem(self.facets, side, film, eta, pairs.roughness, pairs.incoming, pairs.outgoing)
+        return BsdfProblem(self.facets, side, film, eta, pairs)
 
     def _scattered(
         self, pairs: Pairs, wavelength_nm: FloatArray, weights: FloatArray | None = None
@@ -162,12 +141,7 @@ def bsdf_solver(device: Device, spec: Spec) -> BsdfSolver:
     SpecError
         A material cannot be used at a wavelength.
     """
-    asked, grid, roughness = asked_precision(spec), grid_of(spec), roughness_values(spec)
-    on_facets = Grid(grid.thickness_scale, FACET_COSINES, grid.wavelength_nm)
-    film = facet_film(
-        film_solver(device, spec.stack, on_facets, asked), grid.thickness_scale, grid.wavelength_nm
-    )
-    albedo = albedo_solver(device, surface_of(spec), film, roughness, grid, asked)
+    albedo, roughness = albedo_solver(device, spec), roughness_values(spec)
     return BsdfSolver(albedo, roughness, albedo.microsurface(roughness))
 
 

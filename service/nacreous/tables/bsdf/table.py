@@ -26,8 +26,7 @@ from nacreous.tables.computed import (
     run,
     spectral_axes,
 )
-from nacreous.tables.facet_film import FACET_COSINES
-from nacreous.tables.film import Grid
+from nacreous.tables.facet_film import on_facets
 from nacreous.tables.spec import Spec, bsdf_angles, surface_of
 from nacreous.tables.table import Part, Variable
 
@@ -50,8 +49,7 @@ def compute_bsdf(device: Device, spec: Spec, wanted: frozenset[Part], observer: 
     directions = _directions(spec, solver)
     _require(spec, directions, grid.wavelength_nm, wanted)
     energy_max = check_albedo(solver.albedo, solver.roughness, grid)
-    on_facets = Grid(grid.thickness_scale, FACET_COSINES, grid.wavelength_nm)
-    colouring = colouring_of(spec, solver.albedo.film.solver, on_facets)
+    colouring = colouring_of(spec, solver.albedo.film.solver, on_facets(grid))
     certificate = certify(solver, directions, grid.wavelength_nm, colouring, energy_max)
     task = _Task(solver, directions, grid.wavelength_nm, colouring, surface_of(spec).anisotropic)
     variables = run(task.steps(wanted), asked_precision(spec), observer)

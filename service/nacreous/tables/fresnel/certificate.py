@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.opencl.film_colour import Side
-from nacreous.optics.colour import ColourSystem, lab
-from nacreous.optics.delta_e import delta_e_2000
 from nacreous.tables.cells import Cells, middle_of
 from nacreous.tables.colour import Colouring
+from nacreous.tables.colour_figures import NO_COLOUR_FIGURES, colour_figures, colours_apart
 from nacreous.tables.figures import Figures
 from nacreous.tables.film import Grid
 from nacreous.tables.solver import FilmSolver
@@ -43,7 +42,6 @@ _ALL_COLOUR_NUMBERS, _SPREAD_COLOUR_CELLS = 8_000_000, (32, 128)
 _MOST_GRAZING_CELLS = 8
 _MOST_NUMBERS = 4_000_000
 """Spectral values held at a time while exact colours are integrated."""
-_GAMUT_ROUNDING = 1e-5
 
 
 @dataclass(frozen=True)
@@ -149,30 +147,19 @@ def _differences(
     texels = _texels(solver, scales, angles, colouring)
     exact = _exact_colours(solver, scales.middles, angles.middles, colouring)
     between = middle_of(texels, 2)
-    return delta_e_2000(_lab(between, colouring.system), _lab(exact, colouring.system)), texels
+    return colours_apart(between, exact, colouring.system), texels
 
 
-_NO_COLOUR: dict[str, Any] = {
-    "colour_cells": 0,
-    "delta_e_max": None,
-    "delta_e_p99": None,
-    "delta_e_grazing": None,
-    "out_of_gamut": None,
-    "quadrature_error": None,
-}
+_NO_COLOUR: dict[str, Any] = {**NO_COLOUR_FIGURES, "colour_cells": 0, "delta_e_grazing": None}
 
 
 def _colour_figures(solver: FilmSolver, grid: Grid, colouring: Colouring) -> dict[str, Any]:
     scales, angles = colour_cells(grid, colouring)
     differences, texels = _differences(solver, scales, angles, colouring)
-    outside = (texels < -_GAMUT_ROUNDING) | (texels > 1 + _GAMUT_ROUNDING)
     return {
+        **colour_figures(differences, texels, colouring),
         "colour_cells": scales.lower.size * angles.lower.size,
-        "delta_e_max": float(differences.max()),
-        "delta_e_p99": float(np.quantile(differences, 0.99)),
         "delta_e_grazing": _grazing_difference(solver, grid, colouring),
-        "out_of_gamut": float(outside.any(axis=-1).mean()),
-        "quadrature_error": colouring.error,
     }
 
 
@@ -219,7 +206,3 @@ def _block_colours(solver: FilmSolver, grid: Grid, colouring: Colouring) -> Floa
         Side.TRANSMISSION: (exact["T_s"] + exact["T_p"]) / 2,
     }
     return np.stack([spectra[side] @ colouring.weights.T for side in solver.sides])
-
-
-def _lab(colour: FloatArray, system: ColourSystem) -> FloatArray:
-    return lab(system.to_xyz(colour), system.white)

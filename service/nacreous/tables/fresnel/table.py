@@ -23,7 +23,7 @@ from nacreous.tables.computed import (
     grid_of,
     run,
 )
-from nacreous.tables.film import Grid
+from nacreous.tables.film import SINGLE_TOLERANCE, Grid
 from nacreous.tables.fresnel.certificate import FresnelCertificate, certify
 from nacreous.tables.fresnel.refine import refined
 from nacreous.tables.solver import FilmSolver, film_solver
@@ -31,9 +31,6 @@ from nacreous.tables.spec import Spec
 from nacreous.tables.table import Part, Variable
 
 __all__ = ["compute_fresnel"]
-
-SINGLE_TOLERANCE = 2e-5
-"""Measured rounding of R and T above which a table is computed in double precision."""
 
 _SPECTRAL_DIMS = ("thickness_scale", "cos_theta", "wavelength_nm")
 _COLOUR_DIMS = ("thickness_scale", "cos_theta", "channel")
