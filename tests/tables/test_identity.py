@@ -72,6 +72,13 @@ def test_what_is_tabulated_of_a_surface_matters(axis: dict[str, object]) -> None
     assert _id(table={"quantity": "albedo"} | axis, surface=surface) != before
 
 
+def test_what_a_bsdf_leaves_unread_does_not_matter() -> None:
+    """It has theta_i in the place of cos_theta: the same bytes are the same table."""
+    surface = {"alpha_x": 0.3}
+    one, other = (_id(table={"quantity": "bsdf", "cos_theta": n}, surface=surface) for n in (8, 64))
+    assert one == other
+
+
 def test_a_materials_data_matters(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same name with other n and k is another table: the sampled indices are hashed."""
     from nacreous.optics import stack

@@ -11,6 +11,7 @@ from nacreous.opencl.device import Device
 from nacreous.optics.colour import colour_system, lab
 from nacreous.optics.delta_e import delta_e_2000
 from nacreous.tables.albedo import refine
+from nacreous.tables.albedo.certificate import AlbedoCells
 from nacreous.tables.computed import colouring_of, grid_of
 from nacreous.tables.spec import Spec
 from nacreous.tables.table import Part, Table
@@ -114,15 +115,22 @@ def test_a_table_is_widened_until_it_holds(device: Device) -> None:
     assert held[1].size == 1
 
 
-def test_a_difference_that_only_huge_tables_keep_is_refused() -> None:
-    """Before they are searched for: the message has the difference that was asked for."""
+def test_a_difference_that_only_huge_tables_keep_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before such tables are measured: 64 x 8 x 128 is the largest allowed, 128 cells the longest axis."""
+    asked: list[int] = []
+    known = refine.colour_differences
+
+    def counted(solver: object, cells: AlbedoCells, *rest: object) -> FloatArray:
+        axes = (cells.roughness, cells.thickness_scale, cells.cos_theta)
+        asked.append(max(axis.lower.size for axis in axes))
+        return known(solver, cells, *rest)
+
+    monkeypatch.setattr(refine, "colour_differences", counted)
+    axes = {"roughness": {"start": 0.01, "stop": 1.0, "count": 64}, "cos_theta": 64}
+    scales = {"thickness_scale": {"start": 0.5, "stop": 2.0, "count": 8}}
     with pytest.raises(SpecError, match=r"accuracy\.delta_e: expected .* 65,536 texels can keep, got 0\.05"):
-        tabulated(
-            0.05,
-            roughness={"start": 0.01, "stop": 1.0, "count": 64},
-            cos_theta=64,
-            thickness_scale={"start": 0.5, "stop": 2.0, "count": 8},
-        )
+        tabulated(0.05, **axes, **scales)
+    assert 0 < max(asked) <= 128
 
 
 def test_one_angle_and_one_roughness_need_no_more() -> None:
