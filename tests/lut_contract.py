@@ -64,11 +64,13 @@ class LookupTexture:
     @classmethod
     def read(cls, path: Path) -> Self:
         """Read an EXR by OpenImageIO."""
-        import OpenImageIO as oiio
+        import OpenImageIO
 
-        image = oiio.ImageInput.open(str(path))
+        image = OpenImageIO.ImageInput.open(str(path))
         spec = image.spec()
-        texels = np.asarray(image.read_image(oiio.FLOAT), np.float64).reshape(spec.height, spec.width, -1)
+        texels = np.asarray(image.read_image(OpenImageIO.FLOAT), np.float64).reshape(
+            spec.height, spec.width, -1
+        )
         image.close()
         axes = (json.loads(spec.getattribute(f"nacreous:axis.{side}")) for side in "xy")
         return cls(texels, next(axes), next(axes))

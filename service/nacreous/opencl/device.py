@@ -14,14 +14,13 @@ from typing import Any
 
 from nacreous.errors import DeviceError
 from nacreous.opencl.precision import Precision
+from nacreous.opencl.register_width import lane_width
 
 __all__ = ["Device", "DeviceInfo", "cache_folder", "list_devices", "open_device"]
 
 _INSTALL = "install PoCL with `pip install pocl-binary-distribution`, or Intel's runtime with nacreous[intel]"
 _POCL = "Portable Computing Language"
 """Name of PoCL's platform. It ends the process if it cannot link, so that is asked first."""
-_WIDTHS = (16, 8, 4, 1)
-"""Lane widths that the kernels are built for."""
 
 
 @dataclass(frozen=True)
@@ -60,8 +59,8 @@ class Device:
     queue: Any
 
     def lanes(self, precision: Precision) -> int:
-        """Lane width for numbers of `precision`: the device's preferred vector width."""
-        return _lanes(self.queue.device, precision)
+        """Lane width for numbers of `precision`: the device's vector width."""
+        return lane_width(self.queue.device, precision)
 
     @property
     def memory_bytes(self) -> int:
@@ -159,15 +158,9 @@ def _describe(selector: str, device: Any) -> DeviceInfo:  # noqa: ANN401 - pyope
     cl = _pyopencl()
     kinds = {cl.device_type.CPU: "cpu", cl.device_type.GPU: "gpu"}
     kind = next((name for bit, name in kinds.items() if device.type & bit), "other")
-    lanes = _lanes(device, Precision.SINGLE)
+    lanes = lane_width(device, Precision.SINGLE)
     double = bool(device.double_fp_config)
     return DeviceInfo(selector, device.platform.name, device.name, device.version, kind, lanes, double)
-
-
-def _lanes(device: Any, precision: Precision) -> int:  # noqa: ANN401 - pyopencl is untyped
-    single = precision is Precision.SINGLE
-    preferred = device.preferred_vector_width_float if single else device.preferred_vector_width_double
-    return next(width for width in _WIDTHS if width <= max(1, preferred))
 
 
 @functools.cache
