@@ -1,7 +1,7 @@
 """How wide a device's vectors are: the host of kernels/register_width.cl.
 
-What a device prefers is what its processor has. What its compiler makes use of can be less, and lanes that are
-wider than its registers do not build.
+What a device prefers is what its processor has. What its compiler makes use of can be less, and lanes that
+are wider than its registers do not build.
 """
 
 import functools
