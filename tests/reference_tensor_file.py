@@ -45,8 +45,11 @@ class MeasuredMaterial:
 
     @classmethod
     def read(cls, path: Path) -> "MeasuredMaterial":
-        """Read a file."""
-        return cls(tensor_fields(path))
+        """Read a file; each slice of vndf is a distribution, whatever its scale."""
+        fields = tensor_fields(path)
+        vndf = fields["vndf"].astype(np.float64)
+        whole = np.array([[_whole(density) for density in row] for row in vndf])
+        return cls({**fields, "vndf": vndf / whole[..., None, None]})
 
     def f_cos(self, i: FloatArray, o: FloatArray, channel: float) -> float:
         """F cos_o of one pair of unit vectors at a wavelength in nm, or of a component 0, 1 or 2."""
@@ -67,13 +70,12 @@ class MeasuredMaterial:
 
     def _slice(self, name: str, phi_i: float, theta_i: float) -> FloatArray:
         """Return a field at a direction of the incoming light, linear between its slices."""
-        values = self.fields[name].astype(np.float64)
-        if name == "vndf":  # each slice is a distribution
-            values = values / np.array([[_whole(v) for v in row] for row in values])[..., None, None]
-        around = _weights(self.fields["phi_i"], phi_i) @ values.reshape(len(values), -1)
-        return (_weights(self.fields["theta_i"], theta_i) @ around.reshape(values.shape[1], -1)).reshape(
-            values.shape[2:]
-        )
+        values, mean = self.fields[name], 0.0
+        for q, around in enumerate(_weights(self.fields["phi_i"], phi_i)):
+            for at, along in enumerate(_weights(self.fields["theta_i"], theta_i)):
+                if around * along != 0:
+                    mean = mean + around * along * values[q, at].astype(np.float64)
+        return np.asarray(mean)
 
     @staticmethod
     def _square(density: FloatArray, x: float, y: float) -> tuple[float, float]:
