@@ -1,0 +1,90 @@
+"""Pages in a real browser: a local server, Debian's Chromium, and what a page asked for and complained about."""
+
+import shutil
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+_QUIET = (
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+_SOFTWARE_WEBGL = ("--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+
+
+@dataclass
+class WebPage:
+    """A page that has been opened.
+
+    Parameters
+    ----------
+    page : playwright.sync_api.Page
+    origin : str
+        The server's, without a slash at the end.
+    requests : list of str
+        Every address that was asked for.
+    complaints : list of str
+        What the page wrote to the console as a warning or an error, and what it threw.
+    """
+
+    page: Any
+    origin: str
+    requests: list[str] = field(default_factory=list)
+    complaints: list[str] = field(default_factory=list)
+
+    def call(self, function: str, argument: Any = None) -> Any:
+        """Call a function of ``window`` and wait for what it, or its promise, returns."""
+        return self.page.evaluate(f"argument => window.{function}(argument)", argument)
+
+
+@contextmanager
+def open_page(folder: Path, address: str, size: tuple[int, int] = (800, 600)) -> Iterator[WebPage]:
+    """Serve a folder and open a page of it; skips if there is no browser to be had."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="the Python package playwright is missing")
+    program = shutil.which("chromium")
+    if program is None:
+        pytest.skip("a browser is missing: install the package chromium")
+    with _serve(folder) as origin, playwright.sync_playwright() as run:
+        browser = run.chromium.launch(
+            executable_path=program, args=[*_QUIET, *_SOFTWARE_WEBGL], chromium_sandbox=False
+        )
+        page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        opened = WebPage(page, origin)
+        page.on("request", lambda request: opened.requests.append(request.url))
+        page.on("console", lambda message: _note(opened, message.type, message.text))
+        page.on("pageerror", lambda error: opened.complaints.append(str(error)))
+        page.goto(f"{origin}/{address}", wait_until="load")
+        yield opened
+        browser.close()
+
+
+def _note(opened: WebPage, kind: str, text: str) -> None:
+    if kind in {"warning", "error"}:
+        opened.complaints.append(text)
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    """A server that keeps its log to itself."""
+
+    def log_message(self, *_: object) -> None:
+        """Write nothing."""
+
+
+@contextmanager
+def _serve(folder: Path) -> Iterator[str]:
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(_Quiet, directory=str(folder))) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}"
+        finally:
+            server.shutdown()
