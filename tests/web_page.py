@@ -1,4 +1,4 @@
-"""Pages in a real browser: a local server, Debian's Chromium, and what a page asked for and complained about."""
+"""Pages in a real browser: a local server, Debian's Chromium, and what a page asked for and said."""
 
 import shutil
 import threading
@@ -42,7 +42,7 @@ class WebPage:
     requests: list[str] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)
 
-    def call(self, function: str, argument: Any = None) -> Any:
+    def call(self, function: str, argument: object = None) -> Any:  # noqa: ANN401 - any JSON
         """Call a function of ``window`` and wait for what it, or its promise, returns."""
         return self.page.evaluate(f"argument => window.{function}(argument)", argument)
 

@@ -4,6 +4,7 @@ import { ClampToEdgeWrapping, DataTexture, FloatType, HalfFloatType, LinearFilte
 import { EXRLoader } from "three/addons/loaders/EXRLoader.js";
 
 import { type Axis, parseAxis } from "./axis";
+import { readTextAttributes } from "./exr-header";
 
 /** What a texture of a smooth film holds: the colour of its reflectance or of its transmittance. */
 export type Quantity = "R" | "T";
@@ -31,7 +32,7 @@ export interface LookupTextureOptions {
   readonly type?: typeof FloatType | typeof HalfFloatType;
 }
 
-type Header = Readonly<Record<string, unknown>>;
+type Attributes = ReadonlyMap<string, string>;
 
 /**
  * Load a lookup texture.
@@ -56,18 +57,17 @@ export async function loadLookupTexture(url: string, options: LookupTextureOptio
  */
 export function parseLookupTexture(file: ArrayBuffer, options: LookupTextureOptions = {}): LookupTexture {
   const type = options.type ?? FloatType;
-  const { header, width, height, data } = decode(file, type);
-  const attributes = describe(header);
+  const description = describe(readTextAttributes(file));
+  const { width, height, data } = decode(file, type);
   const texture = new DataTexture(data, width, height, undefined, type);
   texture.colorSpace = NoColorSpace;
   texture.wrapS = texture.wrapT = ClampToEdgeWrapping;
   texture.minFilter = texture.magFilter = LinearFilter;
   texture.needsUpdate = true;
-  return { texture, ...attributes };
+  return { texture, ...description };
 }
 
 interface Image {
-  readonly header: Header;
   readonly width: number;
   readonly height: number;
   readonly data: Float32Array<ArrayBuffer> | Uint16Array<ArrayBuffer>;
@@ -75,7 +75,6 @@ interface Image {
 
 /** The loader writes the rows of the file from the bottom up, which is how WebGL counts v. */
 function decode(file: ArrayBuffer, type: typeof FloatType | typeof HalfFloatType): Image {
-  if (!startsAsEXR(file)) throw new Error("expected an OpenEXR file, found other bytes");
   try {
     return new EXRLoader().setDataType(type).parse(file) as unknown as Image;
   } catch (error) {
@@ -83,35 +82,30 @@ function decode(file: ArrayBuffer, type: typeof FloatType | typeof HalfFloatType
   }
 }
 
-function startsAsEXR(file: ArrayBuffer): boolean {
-  const magic = 20000630; // "Magic number" in "OpenEXR File Layout"
-  return file.byteLength >= 8 && new DataView(file).getUint32(0, true) === magic;
-}
-
-function describe(header: Header): Omit<LookupTexture, "texture"> {
+function describe(attributes: Attributes): Omit<LookupTexture, "texture"> {
   return {
-    quantity: fresnelQuantity(attribute(header, "nacreous:quantity")),
+    quantity: fresnelQuantity(attribute(attributes, "nacreous:quantity")),
     axes: {
-      x: parseAxis("nacreous:axis.x", attribute(header, "nacreous:axis.x")),
-      y: parseAxis("nacreous:axis.y", attribute(header, "nacreous:axis.y")),
+      x: parseAxis("nacreous:axis.x", attribute(attributes, "nacreous:axis.x")),
+      y: parseAxis("nacreous:axis.y", attribute(attributes, "nacreous:axis.y")),
     },
-    ...identity(header),
-    spec: JSON.parse(attribute(header, "nacreous:spec")),
-    certificate: JSON.parse(attribute(header, "nacreous:certificate")),
+    ...identity(attributes),
+    spec: JSON.parse(attribute(attributes, "nacreous:spec")),
+    certificate: JSON.parse(attribute(attributes, "nacreous:certificate")),
   };
 }
 
-function identity(header: Header): Pick<LookupTexture, "id" | "version"> {
-  const space = attribute(header, "nacreous:colour.space");
+function identity(attributes: Attributes): Pick<LookupTexture, "id" | "version"> {
+  const space = attribute(attributes, "nacreous:colour.space");
   if (space !== "Rec.709") {
     throw new Error(`expected colours in Rec.709, as three.js has them, found ${space}: tabulate with space = "Rec.709"`);
   }
-  return { id: attribute(header, "nacreous:id"), version: attribute(header, "nacreous:version") };
+  return { id: attribute(attributes, "nacreous:id"), version: attribute(attributes, "nacreous:version") };
 }
 
-function attribute(header: Header, name: string): string {
-  const value = header[name];
-  if (typeof value === "string") return value;
+function attribute(attributes: Attributes, name: string): string {
+  const value = attributes.get(name);
+  if (value !== undefined) return value;
   throw new Error(`expected a lookup texture of Nacreous, found an OpenEXR file without the attribute ${name}`);
 }
 

@@ -85,28 +85,36 @@ function uniformMap(green) {
 
 const LIGHTS = {
   white: (scene) => { scene.environment = white(); },
-  // Along the line of sight: the half vector is the view.
-  headlight: (scene) => scene.add(new THREE.DirectionalLight(0xffffff, 1)),
+  // From +x, at a right angle to the view along -z.
+  lamp: (scene) => {
+    const lamp = new THREE.DirectionalLight(0xffffff, 1);
+    lamp.position.set(1, 0, 0);
+    scene.add(lamp);
+  },
   // Nothing is reflected, and what lies behind is white.
   behind: (scene) => { scene.background = new THREE.Color(1, 1, 1); },
 };
 
-/** A unit sphere that fills the picture, seen from +z by parallel rays; pixels from the bottom row. */
-window.renderSphere = async ({ paths, film, light, size, thicknessGreen, ...parameters }) => {
+async function filmMaterial({ paths, film, thicknessGreen, ...parameters }) {
   const [table, transmittance] = film ? [] : await load(paths);
-  const material = new NacreousMaterial({
+  return new NacreousMaterial({
     film: film ? new LiveFilm(film) : table,
     ...(transmittance ? { transmittance } : {}),
     ...(thicknessGreen === undefined ? {} : { thicknessScaleMap: uniformMap(thicknessGreen) }),
     ...parameters,
   });
+}
+
+/** A unit sphere that fills the picture, seen from +z by parallel rays; pixels from the bottom row. */
+window.renderSphere = async ({ light, size, mirror, ...parameters }) => {
+  const { roughness } = parameters;
   const scene = new THREE.Scene();
   LIGHTS[light](scene);
   const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 10);
   camera.position.z = 5;
-  scene.children.filter((child) => child.isLight).forEach((lamp) => lamp.position.copy(camera.position));
+  const material = mirror
+    ? new THREE.MeshPhysicalMaterial({ color: 0xffffff, metalness: 1, roughness })
+    : await filmMaterial(parameters);
   scene.add(new THREE.Mesh(new THREE.SphereGeometry(1, 256, 128), material));
   return pixels(scene, camera, size, size);
 };
-
-window.ready = true;
