@@ -8,9 +8,12 @@ from dataclasses import dataclass, field
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
 
 _QUIET = (
     "--disable-quic",
@@ -37,7 +40,7 @@ class WebPage:
         What the page wrote to the console as a warning or an error, and what it threw.
     """
 
-    page: Any
+    page: "Page"
     origin: str
     requests: list[str] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)
@@ -48,24 +51,31 @@ class WebPage:
 
 
 @contextmanager
-def open_page(folder: Path, address: str, size: tuple[int, int] = (800, 600)) -> Iterator[WebPage]:
-    """Serve a folder and open a page of it; skips if there is no browser to be had."""
+def chromium() -> Iterator["Browser"]:
+    """Start Debian's Chromium with WebGL in software; skips if there is none to be had."""
     playwright = pytest.importorskip("playwright.sync_api", reason="the Python package playwright is missing")
     program = shutil.which("chromium")
     if program is None:
         pytest.skip("a browser is missing: install the package chromium")
-    with _serve(folder) as origin, playwright.sync_playwright() as run:
-        browser = run.chromium.launch(
-            executable_path=program, args=[*_QUIET, *_SOFTWARE_WEBGL], chromium_sandbox=False
-        )
-        page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+    arguments = [*_QUIET, *_SOFTWARE_WEBGL]
+    with playwright.sync_playwright() as run:
+        browser = run.chromium.launch(executable_path=program, args=arguments, chromium_sandbox=False)
+        yield browser
+        browser.close()
+
+
+@contextmanager
+def open_page(browser: "Browser", folder: Path, address: str, width: int = 800) -> Iterator[WebPage]:
+    """Serve a folder and open a page of it, half as high as wide."""
+    with _serve(folder) as origin:
+        page = browser.new_page(viewport={"width": width, "height": width // 2})
         opened = WebPage(page, origin)
         page.on("request", lambda request: opened.requests.append(request.url))
         page.on("console", lambda message: _note(opened, message.type, message.text))
         page.on("pageerror", lambda error: opened.complaints.append(str(error)))
         page.goto(f"{origin}/{address}", wait_until="load")
         yield opened
-        browser.close()
+        page.close()
 
 
 def _note(opened: WebPage, kind: str, text: str) -> None:

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lut_contract import POINTS, LookupTexture, write_contract_table
-from web_page import WebPage, open_page
+import nacreous
+from lut_contract import CONTRACT_SPEC, POINTS, LookupTexture, write_contract_table
+from web_page import WebPage, chromium, open_page
 
 CLIENTS = Path(__file__).parents[2] / "clients"
 
@@ -51,7 +52,7 @@ ARGUMENTS = "Table, TableSampler, place.x, place.y, CosThetaAxis.xyz, ThicknessS
 @pytest.fixture(scope="module")
 def page() -> Iterator[WebPage]:
     """Open the page that runs fragment shaders."""
-    with open_page(Path(__file__).parent, "hlsl_page/index.html") as opened:
+    with chromium() as browser, open_page(browser, Path(__file__).parent, "hlsl_page/index.html") as opened:
         yield opened
 
 
@@ -102,13 +103,12 @@ def test_reads_the_contract_table(page: WebPage, name: str, suffix: str, tmp_pat
 def test_one_thickness_has_no_upper_and_lower_row(page: WebPage, name: str, tmp_path: Path) -> None:
     """A table of one thickness has two equal rows: any thickness_scale reads the same."""
     engine = ENGINES[name]
-    contract = LookupTexture.read(write_contract_table(tmp_path))
-    single = LookupTexture(
-        contract.texels[[4, 4]], contract.axis_x, contract.axis_y | {"range": [1.0, 1.0], "count": 1}
-    )
+    spec = CONTRACT_SPEC | {"table": CONTRACT_SPEC["table"] | {"thickness_scale": 1}}
+    texture = LookupTexture.read(nacreous.write(nacreous.tabulate(spec), tmp_path / "single.exr")[0])
     points = np.array([(0.3, 0.0), (0.3, 1.0), (0.3, 2.0)])
-    got = run(page, engine, translate(engine, tmp_path), single, points)
-    np.testing.assert_allclose(got, contract.at(points[:, 0], np.ones(3)), rtol=0, atol=1e-4)
+    got = run(page, engine, translate(engine, tmp_path), texture, points)
+    expected = texture.at(np.full(3, 0.3), np.ones(3))
+    np.testing.assert_allclose(got, expected, rtol=0, atol=1e-4)
 
 
 def test_both_engines_share_their_lines() -> None:

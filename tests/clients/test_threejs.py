@@ -6,14 +6,17 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
 import nacreous
 from lut_contract import CONTRACT_SPEC, POINTS, LookupTexture, write_contract_table
-from web_page import WebPage, open_page
+from web_page import WebPage, chromium, open_page
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 SOURCE = Path(__file__).parents[2] / "clients" / "threejs"
 SIZE = 64
@@ -76,13 +79,22 @@ def _write_foreign_exr(path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def page(package: Path, tables: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[WebPage]:
+def browser() -> Iterator["Browser"]:
+    """Start one browser for all pages."""
+    with chromium() as started:
+        yield started
+
+
+@pytest.fixture(scope="module")
+def page(
+    browser: "Browser", package: Path, tables: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[WebPage]:
     """Open the page that the tests call, beside the built package and the tables."""
     site = tmp_path_factory.mktemp("site")
     (site / "package").symlink_to(package)
     (site / "tables").symlink_to(tables)
     (site / "page").symlink_to(Path(__file__).parent / "three_page")
-    with open_page(site, "page/index.html") as opened:
+    with open_page(browser, site, "page/index.html") as opened:
         yield opened
 
 
@@ -293,8 +305,26 @@ def test_the_lock_file_names_no_registry() -> None:
 
 def test_the_page_keeps_to_its_origin(page: WebPage) -> None:
     """Nothing that was asked for above came from elsewhere, and no shader was complained about."""
-    asked = [address for address in page.requests if not address.startswith(("data:", "blob:"))]
-    assert len(asked) > 1
-    assert all(address.startswith(page.origin + "/") for address in asked)
+    assert len(page.requests) > 1
+    assert _strangers(page) == []
     # A missing table was asked for on purpose, and reading pixels back stalls the GPU.
     assert [text for text in page.complaints if "404" not in text and "ReadPixels" not in text] == []
+
+
+def test_the_example_draws_its_spheres(browser: "Browser", package: Path) -> None:
+    """The page of example/ loads the tables of its presets from its own folder and has nothing to say."""
+    tables = package / "example" / "public" / "tables"
+    tables.mkdir(parents=True)
+    for preset in ("anodised-titanium", "morpho", "nacre", "oil-on-water", "beetle", "soap-bubble"):
+        nacreous.write(nacreous.tabulate(nacreous.preset(preset)), tables / f"{preset}.exr")
+    _npm(str(shutil.which("npm")), package, "run", "build:example")
+    with open_page(browser, package / "example" / "dist", "index.html", width=240) as opened:
+        opened.page.wait_for_selector("body[data-state=drawn]")
+        assert opened.page.inner_text("#message") == ""
+        assert _strangers(opened) == []
+
+
+def _strangers(page: WebPage) -> list[str]:
+    """Return what was asked for outside of the page's origin."""
+    local = ("data:", "blob:", page.origin + "/")
+    return [address for address in page.requests if not address.startswith(local)]
