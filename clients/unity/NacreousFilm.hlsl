@@ -14,14 +14,13 @@ struct NacreousAxis
     float Count;
 };
 
-// Texture coordinate along an axis of linear mapping: the first and the last texel centre are the ends of the axis.
-// A texture has two equal texels for an axis of one value.
+// Texture coordinate along an axis of linear mapping: the first and the last texel centre are the ends of the axis. An
+// axis of one value has two equal texels.
 float NacreousCoordinate(NacreousAxis Axis, float Value)
 {
     float Span = Axis.Last - Axis.First;
     float X = Span > 0.0 ? saturate((Value - Axis.First) / Span) : 0.0;
-    float Texels = max(Axis.Count, 2.0);
-    return (X * (Texels - 1.0) + 0.5) / Texels;
+    return (X * (Axis.Count - 1.0) + 0.5) / Axis.Count;
 }
 
 // Place in the texture, v counted from the top row, where thickness_scale is smallest.
