@@ -190,6 +190,13 @@ def test_a_mirror_in_white_surroundings_is_the_film(
     assert _mean_relative_error(colours, expected) < 0.01
 
 
+def test_a_clone_looks_alike(page: WebPage) -> None:
+    """A clone takes the film, the map and its range along."""
+    look = {"paths": [TABLE], "light": "white", "thicknessGreen": 0.25, "thicknessScaleRange": [0.5, 0.9]}
+    clone, _ = _sphere(page, **look, isClone=True)
+    np.testing.assert_array_equal(clone, _sphere(page, **look)[0])
+
+
 def test_light_from_behind_is_the_colour_of_transmission(page: WebPage, tables: Path) -> None:
     """White light behind a smooth sphere that nothing else lights is seen as T(n.v)."""
     colours, cos_theta = _sphere(page, paths=[TABLE, TRANSMISSION], light="behind")

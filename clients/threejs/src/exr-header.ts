@@ -24,7 +24,8 @@ export function readTextAttributes(file: ArrayBuffer): ReadonlyMap<string, strin
     if (value > file.byteLength) throw cutOff();
     const next = value + view.getUint32(typeEnd + 1, true);
     if (next >= file.byteLength) throw cutOff();
-    if (text(bytes, nameEnd + 1, typeEnd) === "string") attributes.set(text(bytes, at, nameEnd), text(bytes, value, next));
+    const isText = text(bytes, nameEnd + 1, typeEnd) === "string";
+    if (isText) attributes.set(text(bytes, at, nameEnd), text(bytes, value, next));
     at = next;
   }
   return attributes;

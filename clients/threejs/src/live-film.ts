@@ -54,7 +54,6 @@ export class LiveFilm implements Reflectance {
     this.#thicknessNm[layer] = thicknessNm;
   }
 
-  /** Free the GPU's memory. */
   dispose(): void {
     (this.uniforms.nacreousSpectra?.value as DataTexture).dispose();
   }

@@ -98,7 +98,7 @@ function describe(attributes: Attributes): Omit<LookupTexture, "texture"> {
 function identity(attributes: Attributes): Pick<LookupTexture, "id" | "version"> {
   const space = attribute(attributes, "nacreous:colour.space");
   if (space !== "Rec.709") {
-    throw new Error(`expected colours in Rec.709, as three.js has them, found ${space}: tabulate with space = "Rec.709"`);
+    throw new Error(`expected colours in Rec.709, as three.js has, found ${space}: tabulate with space = "Rec.709"`);
   }
   return { id: attribute(attributes, "nacreous:id"), version: attribute(attributes, "nacreous:version") };
 }

@@ -95,6 +95,11 @@ export class NacreousMaterial extends MeshPhysicalMaterial {
     return new NacreousMaterial({ film: this.#reflectance }).copy(this) as this;
   }
 
+  override dispose(): void {
+    super.dispose();
+    this.#reflectance.dispose();
+  }
+
   override customProgramCacheKey(): string {
     return `nacreous ${this.#reflectance.key}`;
   }

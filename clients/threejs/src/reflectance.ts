@@ -12,4 +12,6 @@ export interface Reflectance {
   readonly glsl: string;
   readonly uniforms: Readonly<Record<string, IUniform>>;
   readonly transmits: boolean;
+  /** Free the GPU's memory that is the film's own; tables that were passed in stay. */
+  dispose(): void;
 }

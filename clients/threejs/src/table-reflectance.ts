@@ -13,11 +13,12 @@ import tableGLSL from "./shaders/table.glsl?raw";
 export function tableReflectance(table: LookupTexture, transmittance?: LookupTexture): Reflectance {
   expectQuantity(table, "R");
   if (transmittance) expectCompanion(table, transmittance);
+  const values = axisValues(table.axes.x, table.axes.y);
   const uniforms: Record<string, IUniform> = {
     nacreousTable: { value: table.texture },
     nacreousAxisX: { value: axisUniform(table.axes.x) },
     nacreousAxisY: { value: axisUniform(table.axes.y) },
-    nacreousAxisValues: { value: axisValues(table.axes.x, table.axes.y) },
+    nacreousAxisValues: { value: values },
   };
   if (transmittance) uniforms.nacreousTransmittanceTable = { value: transmittance.texture };
   const transmits = transmittance !== undefined;
@@ -26,6 +27,7 @@ export function tableReflectance(table: LookupTexture, transmittance?: LookupTex
     glsl: (transmits ? "#define NACREOUS_TRANSMITTANCE\n" : "") + tableGLSL,
     uniforms,
     transmits,
+    dispose: () => { values.dispose(); },
   };
 }
 

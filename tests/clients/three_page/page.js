@@ -69,12 +69,15 @@ window.readTable = async ({ paths, points, functionName }) =>
 window.readFilm = ({ film, wavelengths, points }) =>
   evaluate(new LiveFilm(film, { wavelengths }), "nacreousReflectance", points);
 
-function white() {
+function whiteSurroundings() {
   const texture = new THREE.DataTexture(new Float32Array(4).fill(1), 1, 1, THREE.RGBAFormat, THREE.FloatType);
   texture.mapping = THREE.EquirectangularReflectionMapping;
   texture.needsUpdate = true;
   return texture;
 }
+
+/** One for all pictures: three filters it once. */
+const WHITE = whiteSurroundings();
 
 /** One green value for all of a map. */
 function uniformMap(green) {
@@ -84,7 +87,7 @@ function uniformMap(green) {
 }
 
 const LIGHTS = {
-  white: (scene) => { scene.environment = white(); },
+  white: (scene) => { scene.environment = WHITE; },
   // From +x, at a right angle to the view along -z.
   lamp: (scene) => {
     const lamp = new THREE.DirectionalLight(0xffffff, 1);
@@ -106,7 +109,7 @@ async function filmMaterial({ paths, film, thicknessGreen, ...parameters }) {
 }
 
 /** A unit sphere that fills the picture, seen from +z by parallel rays; pixels from the bottom row. */
-window.renderSphere = async ({ light, size, mirror, ...parameters }) => {
+window.renderSphere = async ({ light, size, mirror, isClone, ...parameters }) => {
   const { roughness } = parameters;
   const scene = new THREE.Scene();
   LIGHTS[light](scene);
@@ -115,6 +118,6 @@ window.renderSphere = async ({ light, size, mirror, ...parameters }) => {
   const material = mirror
     ? new THREE.MeshPhysicalMaterial({ color: 0xffffff, metalness: 1, roughness })
     : await filmMaterial(parameters);
-  scene.add(new THREE.Mesh(new THREE.SphereGeometry(1, 256, 128), material));
+  scene.add(new THREE.Mesh(new THREE.SphereGeometry(1, 256, 128), isClone ? material.clone() : material));
   return pixels(scene, camera, size, size);
 };

@@ -32,7 +32,7 @@ vec3 nacreousTint(const in float cosTheta, const in PhysicalMaterial material) {
 	return F * mix(F, vec3(1.0), saturate(material.dfg.x + material.dfg.y));
 }
 
-// Make the material a perfect mirror; its diffuse light is what lies under the film.
+// Make the material a perfect mirror. The diffuse ground below stays as it is: diffuseContribution.
 void nacreousMirror(inout PhysicalMaterial material) {
 	material.diffuseColor = vec3(1.0);
 	material.specularColor = vec3(1.0);
@@ -41,9 +41,16 @@ void nacreousMirror(inout PhysicalMaterial material) {
 	material.metalness = 1.0;
 }
 
-void RE_Direct_Nacreous(const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
+void RE_Direct_Nacreous(
+	const in IncidentLight directLight, const in vec3 geometryPosition,
+	const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal,
+	const in PhysicalMaterial material, inout ReflectedLight reflectedLight
+) {
 	ReflectedLight mirror = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-	RE_Direct_Physical(directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, mirror);
+	RE_Direct_Physical(
+		directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal,
+		material, mirror
+	);
 	float cosThetaH = saturate(dot(geometryViewDir, normalize(directLight.direction + geometryViewDir)));
 	vec3 tint = nacreousTint(cosThetaH, material);
 	vec3 irradiance = saturate(dot(geometryNormal, directLight.direction)) * directLight.color;
@@ -52,23 +59,41 @@ void RE_Direct_Nacreous(const in IncidentLight directLight, const in vec3 geomet
 }
 
 #if NUM_RECT_AREA_LIGHTS > 0
-void RE_Direct_RectArea_Nacreous(const in RectAreaLight rectAreaLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
+void RE_Direct_RectArea_Nacreous(
+	const in RectAreaLight rectAreaLight, const in vec3 geometryPosition,
+	const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal,
+	const in PhysicalMaterial material, inout ReflectedLight reflectedLight
+) {
 	ReflectedLight mirror = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-	RE_Direct_RectArea_Physical(rectAreaLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, mirror);
+	RE_Direct_RectArea_Physical(
+		rectAreaLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal,
+		material, mirror
+	);
 	vec3 tint = nacreousTint(saturate(dot(geometryNormal, geometryViewDir)), material);
 	reflectedLight.directSpecular += mirror.directSpecular * tint;
 	reflectedLight.directDiffuse += mirror.directDiffuse * (1.0 - tint);
 }
 #endif
 
-void RE_IndirectDiffuse_Nacreous(const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
+void RE_IndirectDiffuse_Nacreous(
+	const in vec3 irradiance, const in vec3 geometryPosition,
+	const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal,
+	const in PhysicalMaterial material, inout ReflectedLight reflectedLight
+) {
 	vec3 tint = nacreousTint(saturate(dot(geometryNormal, geometryViewDir)), material);
 	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert(material.diffuseContribution) * (1.0 - tint);
 }
 
-void RE_IndirectSpecular_Nacreous(const in vec3 radiance, const in vec3 irradiance, const in vec3 clearcoatRadiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
+void RE_IndirectSpecular_Nacreous(
+	const in vec3 radiance, const in vec3 irradiance, const in vec3 clearcoatRadiance, const in vec3 geometryPosition,
+	const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal,
+	const in PhysicalMaterial material, inout ReflectedLight reflectedLight
+) {
 	ReflectedLight mirror = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-	RE_IndirectSpecular_Physical(radiance, irradiance, clearcoatRadiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, mirror);
+	RE_IndirectSpecular_Physical(
+		radiance, irradiance, clearcoatRadiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal,
+		material, mirror
+	);
 	vec3 tint = nacreousTint(saturate(dot(geometryNormal, geometryViewDir)), material);
 	reflectedLight.indirectSpecular += mirror.indirectSpecular * tint;
 	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert(material.diffuseContribution) * (1.0 - tint);
