@@ -1,7 +1,7 @@
 /** Spheres of several films under one light. README.md says how to make the tables. */
 
 import { LiveFilm, loadLookupTexture, NacreousMaterial, type NacreousMaterialParameters } from "@nacreous/three";
-import { Mesh, NeutralToneMapping, PerspectiveCamera, Scene, SphereGeometry, WebGLRenderer } from "three";
+import { MathUtils, Mesh, NeutralToneMapping, PerspectiveCamera, Scene, SphereGeometry, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import { studioEnvironment, studioFloor } from "./studio";
@@ -73,7 +73,8 @@ function onSlide(id: string, show: (value: number) => string): void {
 function lens(renderer: WebGLRenderer, camera: PerspectiveCamera): void {
   renderer.setSize(innerWidth, innerHeight);
   camera.aspect = innerWidth / innerHeight;
-  camera.fov = camera.aspect > 1.6 ? 24 : 38;
+  const acrossAllSpheres = 2 * Math.atan(0.4 / camera.aspect);
+  camera.fov = Math.max(24, MathUtils.radToDeg(acrossAllSpheres));
   camera.updateProjectionMatrix();
 }
 
