@@ -14,3 +14,6 @@ class FormatName(StrEnum):
     NETCDF = "netcdf"
     CSV = "csv"
     PNG = "png"
+    ZARR = "zarr"
+    MATERIALX = "materialx"
+    GLTF = "gltf"

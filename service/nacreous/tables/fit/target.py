@@ -1,0 +1,87 @@
+"""What a simpler model is fitted to: the colours of a film over its angles, as an eye compares them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.errors import SpecError
+from nacreous.optics.colour import colour_system, lab
+from nacreous.optics.delta_e import delta_e_2000
+from nacreous.tables.axes import cos_theta_values
+from nacreous.tables.spec import ColourSpec, Spec
+from nacreous.tables.table import Table
+
+__all__ = ["FITTED_DEG", "STATED_DEG", "FitTarget", "check_fittable"]
+
+FloatArray = NDArray[np.float64]
+
+STATED_DEG = (0.0, 45.0, 70.0)
+"""Angles of incidence at which a fit says how far off it is."""
+FITTED_DEG = tuple(np.arange(0.0, 76.0, 5.0).tolist())
+"""Angles that a fit minimises the colour differences over; beyond them every surface turns white."""
+
+
+@dataclass(frozen=True, eq=False)
+class FitTarget:
+    """Colours of a film.
+
+    Parameters
+    ----------
+    cos_theta : float array, shape (A,)
+        Ascending, from cos 75 degrees or less to 1.
+    colour : float array, shape (A, 3)
+        Linear Rec.709 of the unpolarised reflectance.
+    thickness_scale : float
+        Factor on the thickness of every layer that the colours belong to.
+    """
+
+    cos_theta: FloatArray
+    colour: FloatArray
+    thickness_scale: float = 1.0
+
+    @classmethod
+    def of_table(cls, table: Table) -> Self:
+        """Return the colours of a `fresnel` table, at the thickness nearest to that of its spec.
+
+        Raises
+        ------
+        SpecError
+            The table's angles do not reach from normal incidence to 75 degrees.
+        """
+        check_fittable(table.spec)
+        scales = table.values("thickness_scale")
+        nearest = int(np.argmin(np.abs(np.log(scales))))
+        colour = np.asarray(table.values("R_rgb")[nearest], np.float64)
+        rec709 = _screen_colour(colour, table.spec.colour)
+        return cls(table.values("cos_theta"), rec709, float(scales[nearest]))
+
+    def at(self, angles_deg: tuple[float, ...]) -> FloatArray:
+        """Linear Rec.709 at angles of incidence, (A, 3), interpolated as a reader of the table does."""
+        cosines = np.cos(np.radians(angles_deg))
+        channels = [np.interp(cosines, self.cos_theta, channel) for channel in self.colour.T]
+        return np.stack(channels, axis=-1)
+
+    def comparison(self, angles_deg: tuple[float, ...]) -> Callable[[FloatArray], FloatArray]:
+        """Return CIEDE2000 against the film at angles, of colours that a model shows: (..., A, 3) -> (..., A)."""
+        screen = colour_system("D65", "CIE 1931 2 Degree Standard Observer", "Rec.709")
+        exact = lab(screen.to_xyz(self.at(angles_deg)), screen.white)
+        return lambda shown: delta_e_2000(lab(screen.to_xyz(shown), screen.white), exact)
+
+
+def check_fittable(spec: Spec) -> None:
+    """Refuse a spec whose table lacks the angles that a fit is over; raises `SpecError`."""
+    cosines = cos_theta_values(spec.table.cos_theta)
+    if cosines[0] > np.cos(np.radians(FITTED_DEG[-1])) or cosines[-1] < 1:
+        remedy = "table.cos_theta = 64 has all angles"
+        expected = f"cosines from {np.cos(np.radians(FITTED_DEG[-1])):.3f} or less to 1, for a fit"
+        raise SpecError("table.cos_theta", expected, f"{cosines[0]:g} to {cosines[-1]:g}", remedy)
+
+
+def _screen_colour(colour: FloatArray, spec: ColourSpec) -> FloatArray:
+    """Return table colours in linear Rec.709, under the illuminant and for the observer of the spec."""
+    table, screen = (colour_system(spec.illuminant, spec.observer, space) for space in (spec.space, "Rec.709"))
+    converted: FloatArray = colour @ (screen.from_xyz @ np.linalg.inv(table.from_xyz)).T
+    return converted
