@@ -156,6 +156,7 @@ _ALL = (
         materialx.write,
         materialx.read,
         quantities=materialx.QUANTITIES,
+        check=materialx.check,
     ),
     Format(
         FormatName.GLTF,

@@ -13,6 +13,7 @@ between finds nothing, or old chunks beside new ones. One file has one SHA-256, 
 """
 
 import zipfile
+import zlib
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,6 +26,7 @@ from nacreous.tables.table import Table
 
 if TYPE_CHECKING:
     import xarray
+    from zarr.abc.buffer import Buffer
 
 __all__ = ["SUFFIX", "read", "write"]
 
@@ -51,8 +53,7 @@ def _archive(dataset: "xarray.Dataset") -> bytes:
 
 
 def _entries(dataset: "xarray.Dataset") -> dict[str, bytes]:
-    """Return the keys and values of the group; `ZipStore` itself would write the time of day to its archive."""
-    from zarr.core.buffer import Buffer
+    """Return the keys and values of the group; `ZipStore` would write the time of day into its archive."""
     from zarr.storage import MemoryStore
 
     entries: dict[str, Buffer] = {}
@@ -64,7 +65,8 @@ def _with_variable_text(dataset: "xarray.Dataset") -> "xarray.Dataset":
     """Give text a type that Zarr 3 specifies: it has none for NumPy's text of fixed width."""
     from numpy.dtypes import StringDType
 
-    texts = {name: array.astype(StringDType()) for name, array in dataset.coords.items() if array.dtype.kind == "U"}
+    coords = dataset.coords.items()
+    texts = {name: array.astype(StringDType()) for name, array in coords if array.dtype.kind == "U"}
     return dataset.assign_coords(texts)
 
 
@@ -75,12 +77,21 @@ def read(path: Path) -> Contents:
 
 def _load(path: Path) -> "xarray.Dataset":
     import xarray
-    from zarr.storage import ZipStore
+    from zarr.storage import MemoryStore
 
     try:
-        with ZipStore(path, mode="r") as store:
-            return xarray.load_dataset(store, engine="zarr", consolidated=False)
-    except (OSError, ValueError, KeyError, RuntimeError, TypeError, zipfile.BadZipFile) as error:
+        store = MemoryStore(_unpacked(path))
+        group: xarray.Dataset = xarray.open_zarr(store, chunks=None, consolidated=False)
+        return group.load()
+    except (OSError, ValueError, KeyError, RuntimeError, TypeError, zipfile.BadZipFile, zlib.error) as error:
         raise FileFormatError(
             f"expected a Zarr group in a zip archive, got one that cannot be read: {reason(error)}"
         ) from error
+
+
+def _unpacked(path: Path) -> "dict[str, Buffer]":
+    """Return the keys and values of the group; `ZipStore` does not close what is no archive."""
+    from zarr.buffer.cpu import Buffer as Memory
+
+    with zipfile.ZipFile(path) as file:
+        return {name: Memory.from_bytes(file.read(name)) for name in file.namelist()}

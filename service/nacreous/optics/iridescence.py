@@ -104,7 +104,7 @@ def _echoes(outer: FloatArray, inner: FloatArray, path_nm: FloatArray, phase: Fl
 
 
 def _echo_colour(path_nm: FloatArray, phase: FloatArray) -> FloatArray:
-    """Linear Rec.709 of a cosine of the wave number, from path differences (..., A) and phases (..., A, 3)."""
+    """Linear Rec.709 of a cosine of the wave number, from path differences (..., A), phases (..., A, 3)."""
     turn = 2 * np.pi * 1e-9 * path_nm[..., None]
     shift = np.concatenate([phase, phase[..., :1]], axis=-1)
     size = _GAUSSIAN_VALUE * np.sqrt(2 * np.pi * _GAUSSIAN_VARIANCE) / _NORMALISATION
@@ -126,9 +126,11 @@ def _normal_reflectance(ior: FloatArray, outside: FloatArray | float) -> FloatAr
 def _ior_of(f0: FloatArray) -> FloatArray:
     """Return the real index that reflects F0 in air."""
     root = np.sqrt(np.clip(f0, 0, _MOST_F0))
-    return (1 + root) / (1 - root)
+    ior: FloatArray = (1 + root) / (1 - root)
+    return ior
 
 
 def _smooth_step(x: FloatArray) -> FloatArray:
     clipped = np.clip(x, 0, 1)
-    return clipped**2 * (3 - 2 * clipped)
+    grown: FloatArray = clipped**2 * (3 - 2 * clipped)
+    return grown

@@ -111,7 +111,8 @@ def _film(vector: FloatArray) -> Iridescence:
 
 def _vector(film: Iridescence) -> FloatArray:
     vector = np.array([film.ior, film.thickness_nm / _UNIT_NM, *film.base_f0, film.factor])
-    return np.clip(vector, _LEAST, _MOST)
+    bounded: FloatArray = np.clip(vector, _LEAST, _MOST)
+    return bounded
 
 
 def _rounded(vector: FloatArray) -> FloatArray:

@@ -11,7 +11,8 @@ from nacreous.errors import SpecError
 from nacreous.optics.colour import colour_system, lab
 from nacreous.optics.delta_e import delta_e_2000
 from nacreous.tables.axes import cos_theta_values
-from nacreous.tables.spec import ColourSpec, Spec
+from nacreous.tables.rec709 import rec709
+from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 
 __all__ = ["FITTED_DEG", "STATED_DEG", "FitTarget", "check_fittable"]
@@ -55,8 +56,8 @@ class FitTarget:
         scales = table.values("thickness_scale")
         nearest = int(np.argmin(np.abs(np.log(scales))))
         colour = np.asarray(table.values("R_rgb")[nearest], np.float64)
-        rec709 = _screen_colour(colour, table.spec.colour)
-        return cls(table.values("cos_theta"), rec709, float(scales[nearest]))
+        shown = np.asarray(rec709(colour, table.spec.colour), np.float64)
+        return cls(table.values("cos_theta"), shown, float(scales[nearest]))
 
     def at(self, angles_deg: tuple[float, ...]) -> FloatArray:
         """Linear Rec.709 at angles of incidence, (A, 3), interpolated as a reader of the table does."""
@@ -65,7 +66,7 @@ class FitTarget:
         return np.stack(channels, axis=-1)
 
     def comparison(self, angles_deg: tuple[float, ...]) -> Callable[[FloatArray], FloatArray]:
-        """Return CIEDE2000 against the film at angles, of colours that a model shows: (..., A, 3) -> (..., A)."""
+        """Return CIEDE2000 against the film of what a model shows at angles: (..., A, 3) -> (..., A)."""
         screen = colour_system("D65", "CIE 1931 2 Degree Standard Observer", "Rec.709")
         exact = lab(screen.to_xyz(self.at(angles_deg)), screen.white)
         return lambda shown: delta_e_2000(lab(screen.to_xyz(shown), screen.white), exact)
@@ -78,10 +79,3 @@ def check_fittable(spec: Spec) -> None:
         remedy = "table.cos_theta = 64 has all angles"
         expected = f"cosines from {np.cos(np.radians(FITTED_DEG[-1])):.3f} or less to 1, for a fit"
         raise SpecError("table.cos_theta", expected, f"{cosines[0]:g} to {cosines[-1]:g}", remedy)
-
-
-def _screen_colour(colour: FloatArray, spec: ColourSpec) -> FloatArray:
-    """Return table colours in linear Rec.709, under the illuminant and for the observer of the spec."""
-    table, screen = (colour_system(spec.illuminant, spec.observer, space) for space in (spec.space, "Rec.709"))
-    converted: FloatArray = colour @ (screen.from_xyz @ np.linalg.inv(table.from_xyz)).T
-    return converted
