@@ -14,6 +14,7 @@ A table over thicknesses is fitted at the scale nearest to 1. ``materials[0].ext
 ``film_rgb``         linear Rec.709 reflectance of the film there, as the table has it
 ``gltf_rgb``         the same of the fitted material
 ``delta_e_2000``     CIEDE2000 of the two; ``delta_e_2000_max`` and ``_mean`` are over 0 to 75 degrees
+``thickness_scale``  factor on the film's thickness that all of this belongs to
 ``verdict``          what that means, in a sentence
 ``provenance``       ``id``, ``version``, ``spec``, ``certificate`` and the rest, and ``checksum``, SHA-256
                      over all of the document but itself
@@ -52,6 +53,8 @@ _NEAR, _VISIBLE = 2.0, 5.0
 """CIEDE2000 that is seen side by side, and at a glance."""
 _ARRAYS = MappingProxyType({"film_rgb": (3, 3), "gltf_rgb": (3, 3), "delta_e_2000": (3,)})
 _COLOUR_DIGITS, _DELTA_E_DIGITS = 5, 2
+_DIGITS = 4
+"""Decimals of the fitted parameters, which the fit has rounded already, in its own units."""
 
 check = check_fittable
 
@@ -85,9 +88,9 @@ def _document(table: Table, material: dict[str, Any], extras: dict[str, Any]) ->
 
 def _material(spec: Spec, film: Iridescence, *, transmits: bool) -> dict[str, Any]:
     iridescence = {
-        "iridescenceFactor": float(film.factor),
-        "iridescenceIor": float(film.ior),
-        "iridescenceThicknessMaximum": float(film.thickness_nm),
+        "iridescenceFactor": round(float(film.factor), _DIGITS),
+        "iridescenceIor": round(float(film.ior), _DIGITS),
+        "iridescenceThicknessMaximum": round(float(film.thickness_nm), _DIGITS),
     }
     base = _dielectric(film.base_f0) if transmits else {}
     return {

@@ -1,8 +1,10 @@
 """The material of glTF that looks most like a film: KHR_materials_iridescence with fitted parameters.
 
-CIEDE2000 at 0 to 75 degrees, every 5 degrees alike, is minimised in the mean square: first over a grid of
-films of every index and thickness on grey bases, all at once, then by least squares from the best of them,
-and from the film as it is, so that a fit is never worse than copying its numbers.
+CIEDE2000 at 0 to 75 degrees, in steps of 5, is minimised in the mean square, each angle weighted with its
+cosine: so much of a surface's area is seen. The search begins with a grid of films of every index and
+thickness, all at once, and goes on by least squares from the best of them and from the film as it is, so that
+a fit is never worse than copying its numbers. The squares are those of differences in L*a*b* first, because
+CIEDE2000 has no derivative where two colours are equal.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,16 +22,16 @@ from nacreous.tables.fit.target import FITTED_DEG, STATED_DEG, FitTarget
 __all__ = ["GltfFit", "fit_gltf", "naive_film"]
 
 FloatArray = NDArray[np.float64]
+Residuals = Callable[[FloatArray], FloatArray]
 
-_IOR = (1.0, 4.0)
-_THICKNESS_NM = (0.0, 2000.0)
+_IOR = (1.0, 3.0)
+_THICKNESS_NM = (0.0, 1200.0)
 _BASE_F0 = (0.0, 0.95)
-"""Bounds: indices of all transparent films, thicknesses beyond which no Gaussian sees a fringe, any base."""
-_GRID_IOR = (1.0, 3.0)
-_GREYS = (0.0, 0.04, 0.15, 0.35, 0.6, 0.85)
-_GRID_STEPS = (21, 134)
-"""Indices 0.1 apart, and thicknesses 15 nm apart: a tenth of a fringe."""
-_STARTS = 6
+"""Bounds: the indices that engines offer, thicknesses beyond which no Gaussian sees a fringe, and any base."""
+_GREYS = (0.0, 0.01, 0.04, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.92)
+_GRID_STEPS = (21, 61)
+"""Indices 0.1 apart, and thicknesses 20 nm apart: less than a sixth of a fringe."""
+_STARTS, _POLISHED = 8, 2
 _APART_NM, _APART_IOR = 40.0, 0.25
 """How far starts are apart: nearer ones end in the same minimum."""
 _DIGITS = 4
@@ -58,11 +60,16 @@ class GltfFit:
 
 def fit_gltf(target: FitTarget, stack: Stack) -> GltfFit:
     """Fit the material to a target; `stack` gives one of the films that the search starts from."""
-    residuals = _differences(target, FITTED_DEG)
-    starts = [_vector(naive_film(stack, target.thickness_scale)), *_starts(residuals)]
-    ends = [vector for start in starts for vector in (start, _refined(residuals, start))]
-    best = min(map(_rounded, ends), key=lambda vector: float((residuals(vector) ** 2).sum()))
-    return _described(target, best)
+    delta_e, lab_difference = _residuals(target)
+    naive = _vector(naive_film(stack, target.thickness_scale))
+    near = [_refined(lab_difference, start) for start in (naive, *_starts(target))]
+    best = sorted(near, key=lambda vector: _squares(delta_e(vector)))[:_POLISHED]
+    ends = [naive, *best, *(_refined(delta_e, vector) for vector in best)]
+    return _described(target, min(map(_rounded, ends), key=lambda vector: _squares(delta_e(vector))))
+
+
+def _squares(residuals: FloatArray) -> float:
+    return float((residuals**2).sum())
 
 
 def naive_film(stack: Stack, thickness_scale: float = 1.0) -> Iridescence:
@@ -91,22 +98,23 @@ def _described(target: FitTarget, vector: FloatArray) -> GltfFit:
     return GltfFit(_film(vector), by_angle, float(fitted.max()), float(fitted.mean()))
 
 
-def _differences(target: FitTarget, angles_deg: tuple[float, ...]) -> Callable[[FloatArray], FloatArray]:
+def _differences(target: FitTarget, angles_deg: tuple[float, ...]) -> Residuals:
     """Return CIEDE2000 at angles, (..., A), of vectors (..., 6)."""
-    compare, cosines = target.comparison(angles_deg), np.cos(np.radians(angles_deg))
-    return lambda vector: compare(iridescent_reflectance(_film(vector), cosines))
+    comparison, cosines = target.comparison(angles_deg), np.cos(np.radians(angles_deg))
+    return lambda vector: comparison.delta_e(iridescent_reflectance(_film(vector), cosines))
 
 
 # ---- the search --------------------------------------------------------------------------------------------
 # A vector is ior, thickness in units of the least squares' step, F0 of red, green and blue, and the factor.
 
 _UNIT_NM = 200.0
+_BASE = slice(2, 5)
 _LEAST = np.array([_IOR[0], _THICKNESS_NM[0] / _UNIT_NM, *[_BASE_F0[0]] * 3, 0.0])
 _MOST = np.array([_IOR[1], _THICKNESS_NM[1] / _UNIT_NM, *[_BASE_F0[1]] * 3, 1.0])
 
 
 def _film(vector: FloatArray) -> Iridescence:
-    return Iridescence(vector[..., 0], vector[..., 1] * _UNIT_NM, vector[..., 2:5], vector[..., 5])
+    return Iridescence(vector[..., 0], vector[..., 1] * _UNIT_NM, vector[..., _BASE], vector[..., 5])
 
 
 def _vector(film: Iridescence) -> FloatArray:
@@ -121,16 +129,50 @@ def _rounded(vector: FloatArray) -> FloatArray:
     return _vector(replace(film, thickness_nm=np.round(film.thickness_nm, _DIGITS - 1)))
 
 
-def _starts(residuals: Callable[[FloatArray], FloatArray]) -> list[FloatArray]:
+def _residuals(target: FitTarget) -> tuple[Residuals, Residuals]:
+    """Return CIEDE2000 of vectors, and differences in L*a*b*, weighted."""
+    comparison, cosines = target.comparison(FITTED_DEG), np.cos(np.radians(FITTED_DEG))
+    weights = np.sqrt(cosines)
+
+    def delta_e(vector: FloatArray) -> FloatArray:
+        return weights * comparison.delta_e(iridescent_reflectance(_film(vector), cosines))
+
+    def lab_difference(vector: FloatArray) -> FloatArray:
+        shown = iridescent_reflectance(_film(vector), cosines)
+        return (weights[:, None] * comparison.lab_difference(shown)).ravel()
+
+    return delta_e, lab_difference
+
+
+def _starts(target: FitTarget) -> list[FloatArray]:
     """Return the best films of a grid, none of them next to another."""
+    comparison, cosines = target.comparison(FITTED_DEG), np.cos(np.radians(FITTED_DEG))
+    grid = _coloured(_grid(), target.at(FITTED_DEG), cosines)  # (N, 6)
+    delta_e = comparison.delta_e(iridescent_reflectance(_film(grid), cosines))
+    ranked = grid[np.argsort(delta_e**2 @ cosines, kind="stable")]
+    return list(islice(_apart(ranked), _STARTS))
+
+
+def _grid() -> FloatArray:
+    """Films of every index and thickness on every grey base: (N, greys, 6)."""
     ior, thickness = (
-        np.linspace(*ends, steps) for ends, steps in zip((_GRID_IOR, _THICKNESS_NM), _GRID_STEPS, strict=True)
+        np.linspace(*ends, steps) for ends, steps in zip((_IOR, _THICKNESS_NM), _GRID_STEPS, strict=True)
     )
     axes = np.meshgrid(ior, thickness / _UNIT_NM, _GREYS, indexing="ij")
-    at_ior, at_thickness, grey = (axis.ravel() for axis in axes)
-    grid = np.stack([at_ior, at_thickness, grey, grey, grey, np.ones_like(grey)], axis=-1)  # (N, 6)
-    badness = (residuals(grid) ** 2).sum(axis=-1)
-    return list(islice(_apart(grid[np.argsort(badness, kind="stable")]), _STARTS))
+    at_ior, at_thickness, grey = (axis.reshape(-1, len(_GREYS)) for axis in axes)
+    return np.stack([at_ior, at_thickness, grey, grey, grey, np.ones_like(grey)], axis=-1)
+
+
+def _coloured(grid: FloatArray, film: FloatArray, cos_theta: FloatArray) -> FloatArray:
+    """Give each film the base, (N, 6), whose red, green and blue are the greys that suit these best.
+
+    A channel of the colour follows from that of the base, but for the phase, so each is chosen on its own.
+    """
+    shown = iridescent_reflectance(_film(grid), cos_theta)  # (N, greys, A, 3)
+    apart = (cos_theta[:, None] * (np.cbrt(shown) - np.cbrt(film)) ** 2).sum(axis=-2)  # (N, greys, 3)
+    coloured = grid[:, 0].copy()
+    coloured[:, _BASE] = np.array(_GREYS)[apart.argmin(axis=1)]
+    return coloured
 
 
 def _apart(ranked: FloatArray) -> Iterator[FloatArray]:
@@ -146,10 +188,10 @@ def _apart(ranked: FloatArray) -> Iterator[FloatArray]:
             yield vector
 
 
-def _refined(residuals: Callable[[FloatArray], FloatArray], start: FloatArray) -> FloatArray:
+def _refined(residuals: Residuals, start: FloatArray) -> FloatArray:
     from scipy.optimize import least_squares  # type: ignore[import-untyped]
 
     inside = np.clip(start, _LEAST + 1e-3, _MOST - 1e-3)  # on a bound its first step would be none
-    found = least_squares(residuals, inside, bounds=(_LEAST, _MOST), max_nfev=60, diff_step=1e-5)
+    found = least_squares(residuals, inside, bounds=(_LEAST, _MOST), max_nfev=40, diff_step=1e-5)
     best: FloatArray = found.x
     return best

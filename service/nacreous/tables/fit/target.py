@@ -1,6 +1,5 @@
 """What a simpler model is fitted to: the colours of a film over its angles, as an eye compares them."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Self
 
@@ -8,14 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.errors import SpecError
-from nacreous.optics.colour import colour_system, lab
+from nacreous.optics.colour import ColourSystem, colour_system, lab
 from nacreous.optics.delta_e import delta_e_2000
 from nacreous.tables.axes import cos_theta_values
 from nacreous.tables.rec709 import rec709
 from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 
-__all__ = ["FITTED_DEG", "STATED_DEG", "FitTarget", "check_fittable"]
+__all__ = ["FITTED_DEG", "STATED_DEG", "Comparison", "FitTarget", "check_fittable"]
 
 FloatArray = NDArray[np.float64]
 
@@ -65,11 +64,37 @@ class FitTarget:
         channels = [np.interp(cosines, self.cos_theta, channel) for channel in self.colour.T]
         return np.stack(channels, axis=-1)
 
-    def comparison(self, angles_deg: tuple[float, ...]) -> Callable[[FloatArray], FloatArray]:
-        """Return CIEDE2000 against the film of what a model shows at angles: (..., A, 3) -> (..., A)."""
+    def comparison(self, angles_deg: tuple[float, ...]) -> "Comparison":
+        """Return what compares a model with the film at angles of incidence."""
         screen = colour_system("D65", "CIE 1931 2 Degree Standard Observer", "Rec.709")
-        exact = lab(screen.to_xyz(self.at(angles_deg)), screen.white)
-        return lambda shown: delta_e_2000(lab(screen.to_xyz(shown), screen.white), exact)
+        return Comparison(screen, lab(screen.to_xyz(self.at(angles_deg)), screen.white))
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """The film's colours at some angles, to compare a model's with.
+
+    Parameters
+    ----------
+    screen : ColourSystem
+        Linear Rec.709.
+    film : float array, shape (A, 3)
+        L*a*b* of the film.
+    """
+
+    screen: ColourSystem
+    film: FloatArray
+
+    def delta_e(self, shown: FloatArray) -> FloatArray:
+        """CIEDE2000 of linear Rec.709 colours that a model shows, (..., A, 3): (..., A)."""
+        return delta_e_2000(self._lab(shown), self.film)
+
+    def lab_difference(self, shown: FloatArray) -> FloatArray:
+        """L*a*b* of the same less that of the film: (..., A, 3), smooth where both are equal."""
+        return self._lab(shown) - self.film
+
+    def _lab(self, shown: FloatArray) -> FloatArray:
+        return lab(self.screen.to_xyz(shown), self.screen.white)
 
 
 def check_fittable(spec: Spec) -> None:
