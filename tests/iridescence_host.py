@@ -1,4 +1,4 @@
-"""The iridescence of three.js, run from its own shader text by OpenGL, in a process of its own below xvfb-run."""
+"""The iridescence of three.js, run from its own shader text by OpenGL, in a process below xvfb-run."""
 
 import json
 import shutil
@@ -25,8 +25,8 @@ CHUNKS = (
 )
 
 _EPICS, _SCHLICKS = "exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH )", "pow( 1.0 - dotVH, 5.0 )"
-"""Three.js has a Gaussian in the place of Schlick's fifth power, which moves a colour by up to 0.04; both are in
-its text, and the specification's is the second."""
+"""Three.js has a Gaussian in the place of Schlick's fifth power, which moves a colour by up to 0.04; both are
+in its text, and the specification's is the second."""
 
 _VERTEX = "#version 330\nin vec2 corner;\nvoid main() { gl_Position = vec4(corner, 0.0, 1.0); }\n"
 _HEADER = "#version 330\n#define USE_IRIDESCENCE\n"
@@ -42,7 +42,7 @@ void main() {
 
 
 def three_reflectance(films: Sequence[Any], cos_theta: FloatArray) -> FloatArray:
-    """Return what three.js reflects of films at cosines (A,): (films, A, 3); skips a test that cannot run it."""
+    """Return what three.js reflects of films at cosines (A,): (films, A, 3); skips where it cannot run."""
     import pytest
 
     pytest.importorskip("moderngl", reason="the package moderngl is not installed")

@@ -27,7 +27,7 @@ Residuals = Callable[[FloatArray], FloatArray]
 _IOR = (1.0, 3.0)
 _THICKNESS_NM = (0.0, 1200.0)
 _BASE_F0 = (0.0, 0.95)
-"""Bounds: the indices that engines offer, thicknesses beyond which no Gaussian sees a fringe, and any base."""
+"""Bounds: indices that engines offer, thicknesses beyond which no Gaussian sees a fringe, and any base."""
 _GREYS = (0.0, 0.01, 0.04, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.92)
 _GRID_STEPS = (21, 61)
 """Indices 0.1 apart, and thicknesses 20 nm apart: less than a sixth of a fringe."""
