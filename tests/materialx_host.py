@@ -10,6 +10,7 @@ import os
 import shutil
 import subprocess
 import sys
+from ctypes.util import find_library
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import ModuleType
@@ -59,6 +60,8 @@ def draw(pictures: list[Picture], folder: Path) -> list[FloatArray]:
     pytest.importorskip("MaterialX", reason="the package MaterialX is not installed")
     if shutil.which("xvfb-run") is None:
         pytest.skip("the Debian package xvfb is not installed")
+    if find_library("GL") is None:
+        pytest.skip("the Debian packages libgl1 and libgl1-mesa-dri are not installed")
     jobs = folder / "jobs.json"
     jobs.write_text(json.dumps([asdict(picture) for picture in pictures]))
     command = ["xvfb-run", "--auto-servernum", sys.executable, __file__, str(jobs)]

@@ -143,6 +143,15 @@ def test_a_document_with_a_doctype_is_not_parsed(table: Table, tmp_path: Path) -
     assert verify(path).problems == ("expected a MaterialX document, got one with a DOCTYPE",)
 
 
+@pytest.mark.parametrize("name", ["", "..", "../film.exr", "/etc/passwd", "n" * 300])
+def test_a_texture_is_looked_for_beside_the_document_alone(table: Table, tmp_path: Path, name: str) -> None:
+    """Whatever a document names, nothing of other folders is read, and the answer is a problem."""
+    (path, *_) = write(table, tmp_path / "film.mtlx")
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace('value="film.exr"', f'value="{name}"'), encoding="utf-8")
+    assert verify(path).problems != ()
+
+
 @pytest.mark.parametrize(
     ("fields", "field"),
     [

@@ -129,8 +129,8 @@ def _parsed(path: Path) -> ET.Element:
         raise FileFormatError(
             f"expected a MaterialX document, got one that cannot be read: {reason(error)}"
         ) from error
-    if root.find("surfacematerial") is None or not _files(root):
-        raise FileFormatError("expected a MaterialX document that Nacreous wrote, got another")
+    if root.find("surfacematerial") is None or not all(_files(root)) or not _files(root):
+        raise FileFormatError("expected a material and the names of its textures, got none")
     return root
 
 

@@ -11,7 +11,8 @@ Iridescence", ACM Transactions on Graphics 36(4), 2017, for one dielectric film 
 * the sum over the echoes cut after the second, and each echo's colour integrated with Gaussians in the place
   of the colour-matching functions.
 
-It is written here to say how far it is from a film, and to find the parameters that bring it closest.
+It is written here to say how far it is from a film, and to find the parameters that bring it closest. Engines
+differ a little: three.js has a Gaussian in the place of Schlick's fifth power, as Epic's engine had in 2013.
 """
 
 from dataclasses import dataclass
