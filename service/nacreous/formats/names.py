@@ -14,6 +14,8 @@ class FormatName(StrEnum):
     NETCDF = "netcdf"
     CSV = "csv"
     PNG = "png"
+    RGL = "rgl"
+    RGL_RGB = "rgl-rgb"
     ZARR = "zarr"
     MATERIALX = "materialx"
     GLTF = "gltf"
