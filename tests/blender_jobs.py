@@ -1,7 +1,7 @@
 """What Blender does for the tests, in its own process: python blender_jobs.py JOBS.json ANSWERS.json.
 
-A job is an object whose ``job`` names a function here; the others are its arguments. The answers are a list. The
-add-on is installed from its archive, as an artist would, and used through its operators alone.
+A job is an object whose ``job`` names a function here; the others are its arguments. The answers are a list.
+The add-on is installed from its archive, as an artist would, and used through its operators alone.
 """
 
 import contextlib
@@ -205,7 +205,7 @@ def main() -> int:
 if __name__ == "__main__":
     try:
         status = main()
-    except BaseException:
+    except Exception:  # noqa: BLE001 - told on stderr and by the status
         traceback.print_exc()
         status = 1
     # the Python module can hang as the interpreter takes it down

@@ -1,17 +1,19 @@
 """Blender, in a process of its own: what every test with it needs.
 
-Blender's Python module wants Python 3.11 and an older NumPy than Nacreous, so it has an environment of its own:
-``.venv-blender``, which `make test` makes, or the interpreter that ``NACREOUS_BLENDER_PYTHON`` names.
+Blender's Python module wants Python 3.11 and an older NumPy than Nacreous, so it has an environment of its
+own: ``.venv-blender``, which `make test` makes, or the interpreter that ``NACREOUS_BLENDER_PYTHON`` names.
 """
 
 import json
 import os
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from lut_contract import FloatArray
 
@@ -57,3 +59,22 @@ def linear_pixels(path: Path) -> FloatArray:
     pixels = np.asarray(image.read_image(OpenImageIO.FLOAT), np.float64)
     image.close()
     return pixels.reshape(spec.height, spec.width, -1)[..., :3]
+
+
+def packed_add_on(folder: Path) -> Path:
+    """Pack the add-on as an artist gets it."""
+    script = ROOT / "clients" / "blender" / "pack.py"
+    done = subprocess.run(
+        [sys.executable, script, folder], capture_output=True, text=True, check=True, timeout=TIMEOUT_SECONDS
+    )
+    return Path(done.stdout.strip())
+
+
+def sphere_cosines(pixels: int) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Return the cosine at each pixel of a sphere that fills the picture, and where it is well inside.
+
+    The outermost pixels are left out: there a mesh of flat faces is no sphere.
+    """
+    centre = (np.arange(pixels) + 0.5) / pixels * 2 - 1
+    radius2 = centre[:, None] ** 2 + centre**2
+    return np.sqrt(np.clip(1 - radius2, 0, 1)), radius2 < 0.98**2
