@@ -103,6 +103,7 @@ class Service:
         try:
             with _opener().open(url, timeout=TIMEOUT_SECONDS) as answer:
                 body = answer.read(largest_bytes + 1)
+                missing_bytes = answer.length or 0
         except HTTPError as error:
             kind = NotFoundError if error.code == HTTPStatus.NOT_FOUND else ServiceError
             raise kind(f"{url} answered {error.code} {error.reason}") from None
@@ -112,6 +113,8 @@ class Service:
             raise ServiceError(f"{url} broke off: {error}") from None
         if len(body) > largest_bytes:
             raise ServiceError(f"{url} is larger than {largest_bytes // 2**20} MiB")
+        if missing_bytes:
+            raise ServiceError(f"{url} broke off: {missing_bytes} bytes are missing")
         return body
 
 
