@@ -81,8 +81,26 @@ def render_sphere(
     path: str, reader: str, thickness_scale: float, pixels: int, samples: int, picture: str
 ) -> None:
     """Render a sphere that fills the picture, in a white world, with the material as it is made."""
-    scene = empty_scene(pixels, pixels, reader)
+    scene, _ = sphere_in_white(path, reader, thickness_scale, pixels)
     scene.cycles.samples = samples
+    render(scene, picture)
+
+
+def render_sphere_by_shader(path: str, thickness_scale: float, pixels: int, picture: str) -> None:
+    """Render the sphere with the OSL shader's own cosine instead of the group's."""
+    scene, group = sphere_in_white(path, "OSL", thickness_scale, pixels)
+    script = next(node for node in group.nodes if node.type == "SCRIPT")
+    cosine = script.inputs["cos_theta"]
+    group.links.remove(cosine.links[0])
+    cosine.default_value = -1
+    render(scene, picture)
+
+
+def sphere_in_white(
+    path: str, reader: str, thickness_scale: float, pixels: int
+) -> tuple[bpy.types.Scene, bpy.types.NodeTree]:
+    """Return a scene of a coated sphere that fills the picture, and the film's node group."""
+    scene = empty_scene(pixels, pixels, reader)
     bpy.ops.mesh.primitive_uv_sphere_add(segments=256, ring_count=128, radius=1)
     bpy.ops.object.shade_smooth()
     create_material(path, reader)
@@ -93,7 +111,7 @@ def render_sphere(
     scene.world.use_nodes = True
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1, 1, 1, 1)
     look_down(scene, (0, 0), 2)
-    render(scene, picture)
+    return scene, film.node_tree
 
 
 def refuse(path: str, reader: str) -> dict[str, Any]:

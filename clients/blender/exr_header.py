@@ -24,14 +24,19 @@ class NotAPictureError(ValueError):
 
 
 def text_attributes(path: Path) -> dict[str, str]:
-    """Return the attributes of type ``string``; raises `NotAPictureError` and `OSError`."""
+    """Return the attributes of type ``string``; raises `NotAPictureError` and `OSError`.
+
+    The file must be whole, and made of scan lines.
+    """
     with path.open("rb") as file:
         magic, version = struct.unpack("<ii", _exactly(file, 8))
         if magic != MAGIC:
             raise NotAPictureError("it does not begin as an OpenEXR file does")
         if version & DEEP_OR_MULTIPART:
             raise NotAPictureError("it is a deep or multi-part OpenEXR file")
-        return dict(_strings(file))
+        attributes = dict(_strings(file))
+        _require_all_lines(file)
+        return attributes
 
 
 def _strings(file: BinaryIO) -> Iterator[tuple[str, str]]:
@@ -43,6 +48,22 @@ def _strings(file: BinaryIO) -> Iterator[tuple[str, str]]:
         value = _exactly(file, size)
         if kind == "string":
             yield name, value.decode("utf-8", errors="replace")
+
+
+def _require_all_lines(file: BinaryIO) -> None:
+    """Follow the table of offsets to the last lines: Blender shows a file that is cut short as black there.
+
+    The first lines begin where the table ends, each with their place and size, in files of scan lines.
+    """
+    begin = file.tell()
+    (first,) = offset = struct.unpack("<Q", _exactly(file, 8))
+    count = (first - begin) // 8
+    if not 0 < count <= HEADER_BYTES // 8:
+        raise NotAPictureError("its lines are not in order")
+    offsets = offset + struct.unpack(f"<{count - 1}Q", _exactly(file, 8 * (count - 1)))
+    file.seek(max(offsets))
+    _, size = struct.unpack("<ii", _exactly(file, 8))
+    _exactly(file, min(max(size, 0), HEADER_BYTES))
 
 
 def _name(file: BinaryIO) -> str:
@@ -58,5 +79,5 @@ def _name(file: BinaryIO) -> str:
 def _exactly(file: BinaryIO, count: int) -> bytes:
     found = file.read(count)
     if len(found) < count:
-        raise NotAPictureError("it ends within its header")
+        raise NotAPictureError("it ends too early")
     return found
