@@ -96,6 +96,24 @@ def render_sphere_by_shader(path: str, thickness_scale: float, pixels: int, pict
     render(scene, picture)
 
 
+def render_sphere_of_closure(
+    path: str, closure: str, ior: float, thickness_scale: float, pixels: int, samples: int, picture: str
+) -> None:
+    """Render the sphere with an OSL shader that turns R and T into a closure."""
+    scene, _ = sphere_in_white(path, "OSL", thickness_scale, pixels)
+    scene.cycles.samples = samples
+    tree = bpy.context.view_layer.objects[0].active_material.node_tree
+    script = tree.nodes.new("ShaderNodeScript")
+    script.script = bpy.data.texts.load(closure)
+    script.inputs["ior"].default_value = ior
+    film = next(node for node in tree.nodes if node.type == "GROUP")
+    for name in set(film.outputs.keys()) & {"R", "T"}:
+        tree.links.new(film.outputs[name], script.inputs[name])
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(script.outputs["surface"], output.inputs["Surface"])
+    render(scene, picture)
+
+
 def sphere_in_white(
     path: str, reader: str, thickness_scale: float, pixels: int
 ) -> tuple[bpy.types.Scene, bpy.types.NodeTree]:

@@ -24,7 +24,7 @@ TIMEOUT_SECONDS = 300
 def blender_python() -> Path:
     """Return an interpreter that has the module ``bpy``, or skip."""
     path = Path(os.environ.get("NACREOUS_BLENDER_PYTHON", ROOT / ".venv-blender" / "bin" / "python"))
-    if not path.exists():
+    if not path.is_file():
         pytest.skip("Blender is missing: install the package bpy 4.5 into .venv-blender (Python 3.11)")
     return path
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blender_process import blender_jobs, linear_pixels, packed_add_on, sphere_cosines
+from blender_process import ROOT, blender_jobs, linear_pixels, packed_add_on, sphere_cosines
 from lut_contract import POINTS, LookupTexture, write_contract_table
 
 FILES = {"R": "contract.exr", "T": "contract.transmission.exr"}
@@ -27,7 +27,15 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "pixels": PIXELS,
         "picture": str(folder / "sphere.exr"),
     }
-    blender_jobs([{"job": "install", "archive": str(packed_add_on(folder))}, *strips, sphere], folder)
+    closure = ROOT / "clients" / "osl" / "nacreous_film_surface.osl"
+    closures = [
+        sphere
+        | {"job": "render_sphere_of_closure", "closure": str(closure), "ior": 1.5, "samples": samples}
+        | {"path": str(folder / f"{name}.exr"), "picture": str(folder / f"closure {name}.exr")}
+        for name, samples in {"opaque": 1, "contract": 64}.items()
+    ]
+    jobs = [{"job": "install", "archive": str(packed_add_on(folder))}, *strips, sphere, *closures]
+    blender_jobs(jobs, folder)
     return folder
 
 
@@ -40,10 +48,18 @@ def test_the_shader_reads_the_contract(side: str, folder: Path) -> None:
     assert np.abs(got - expected).mean() <= 0.01 * expected.mean()
 
 
-def test_a_sphere_has_the_colour_of_each_angle(folder: Path) -> None:
-    """The shader's own cosine: a smooth sphere in a white world reflects R of each pixel, mean within 1 %."""
+@pytest.mark.parametrize("picture", ["sphere.exr", "closure opaque.exr"])
+def test_a_sphere_has_the_colour_of_each_angle(picture: str, folder: Path) -> None:
+    """The shader's own cosine, and the closure: a smooth sphere in a white world has R, mean within 1 %."""
     cos_theta, inside = sphere_cosines(PIXELS)
     table = LookupTexture.read(folder / "opaque.exr")
     expected = table.at(cos_theta[inside], np.full(inside.sum(), SCALE))
-    got = linear_pixels(folder / "sphere.exr")[inside]
+    got = linear_pixels(folder / picture)[inside]
     assert np.abs(got - expected.clip(min=0)).mean() <= 0.01 * expected.mean()
+
+
+def test_the_closure_on_glass_vanishes_in_a_white_world(folder: Path) -> None:
+    """R + T = 1 on both sides of a film that does not absorb: 1 to within 1 % of noise."""
+    inside = sphere_cosines(PIXELS)[1]
+    got = linear_pixels(folder / "closure contract.exr")[inside].mean(axis=0)
+    np.testing.assert_allclose(got, 1, rtol=0, atol=0.01)
