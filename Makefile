@@ -8,6 +8,7 @@ BENCH_GROUP ?= bench
 
 VENV := .venv
 BENCH_VENV := .venv-bench
+BLENDER_VENV := .venv-blender
 BIN := $(VENV)/bin
 # Matplotlib's cache of fonts: a home need not be writable.
 export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
@@ -30,8 +31,8 @@ run: $(VENV)/.installed
 	@echo 'Picture of it:'
 	@$(BIN)/nacreous preview $(PRESET) -o out/$(subst /,-,$(PRESET)).png
 
-test: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(VENV)/.node
-	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile
+test: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(VENV)/.node $(BLENDER_VENV)/.bpy
+	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
 
 check: $(VENV)/.group-check
 	$(BIN)/ruff check
@@ -47,7 +48,7 @@ bench: $(BENCH_VENV)/.group-$(BENCH_GROUP) $(BENCH_VENV)/.llvm
 	PYTHONPATH=tests $(BENCH_VENV)/bin/python -m bench
 
 clean:
-	rm -rf $(VENV) $(BENCH_VENV) out build dist .hypothesis .*_cache tests/node/node_modules
+	rm -rf $(VENV) $(BENCH_VENV) $(BLENDER_VENV) out build dist .hypothesis .*_cache tests/node/node_modules
 
 # ---- environments: a stamp for each step, renewed when pyproject.toml changes ------------------------------
 
@@ -56,7 +57,7 @@ debian = { $(1); } >/dev/null 2>&1 || \
     { test "$$(id -u)" = 0 && apt-get -qq update && apt-get -qq --yes install $(2); } >/dev/null 2>&1
 
 # Debian packs what makes environments apart from Python. PoCL links its kernels with ld and gcc's library.
-$(VENV)/.made $(BENCH_VENV)/.made:
+$(VENV)/.made $(BENCH_VENV)/.made $(BLENDER_VENV)/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	    { echo 'Expected Python 3.11 or later; name one with PYTHON=...' >&2; exit 1; }
 	@$(call debian,$(PYTHON) -c "import ensurepip",python3-venv) || \
@@ -82,6 +83,15 @@ $(VENV)/.web: $(VENV)/.made
 	@if $(call debian,command -v chromium && command -v glslangValidator && command -v spirv-cross, \
 	        chromium glslang-tools spirv-cross); then touch $@; \
 	    else echo 'The web and engine clients need the packages chromium, glslang-tools and spirv-cross' >&2; fi
+
+# Blender's module wants Python 3.11 and an older NumPy: an environment of its own, and what its window needs.
+$(BLENDER_VENV)/.bpy: $(BLENDER_VENV)/.made
+	@echo 'Installing Blender into $(BLENDER_VENV) ...'
+	@$(call debian,ldconfig -p | grep -q libXi.so && ldconfig -p | grep -q libXxf86vm.so && ldconfig -p | grep -q libSM.so, \
+	    libxi6 libxxf86vm1 libxfixes3 libxrender1 libxkbcommon0 libsm6 libgl1 libegl1) || true
+	@if $(BLENDER_VENV)/bin/python $(PIP_INSTALL) 'bpy==4.5.*' && $(BLENDER_VENV)/bin/python -c 'import bpy' \
+	        >/dev/null 2>&1; then touch $@; \
+	    else echo 'Blender 4.5 needs Python 3.11, libxi6, libxxf86vm1 and libsm6: its tests are skipped' >&2; fi
 
 $(VENV)/.node: $(VENV)/.made tests/node/package-lock.json
 	@if command -v npm >/dev/null && npm ci --silent --no-audit --no-fund --prefix tests/node >/dev/null; \
