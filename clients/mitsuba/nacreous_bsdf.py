@@ -185,8 +185,10 @@ class RoughSurface:
         facets = self.facets(si, active)
         m, density = facets.sample(dr.mulsign(si.wi, si.wi.z), sample2)
         bs, weight = self.film.scatter(ctx, si, m, sample1, active & (density > 0))
-        bs.pdf *= density * _jacobian(dr.dot(si.wi, m), dr.dot(bs.wo, m), bs.eta)
-        return bs, weight * facets.smith_g1(bs.wo, m)
+        masking = facets.smith_g1(bs.wo, m)  # 0 for directions that leave through the facets
+        density *= _jacobian(dr.dot(si.wi, m), dr.dot(bs.wo, m), bs.eta)
+        bs.pdf = dr.select(masking > 0, bs.pdf * density, 0.0)
+        return bs, weight * masking
 
     def eval_pdf(
         self,
@@ -291,12 +293,13 @@ class Film:
         active &= self.is_lit(si.wi) & (chance > 0)
         _, cos_t, eta_it, eta_ti = mi.fresnel(cos_i, mi.Float(self.eta))
         bs = dr.zeros(mi.BSDFSample3f)
-        bs.wo = dr.select(reflects, mi.reflect(si.wi, m), mi.refract(si.wi, m, cos_t, eta_ti))
+        refracted = dr.select(cos_t == 0, si.wi, mi.refract(si.wi, m, cos_t, eta_ti))  # 0: there is none
+        bs.wo = dr.select(reflects, mi.reflect(si.wi, m), refracted)
         bs.eta = dr.select(reflects, 1.0, eta_it)
         bs.pdf = dr.select(active, chance, 0.0)
         bs.sampled_component = dr.select(reflects, mi.UInt32(0), mi.UInt32(1))
         bs.sampled_type = dr.select(reflects, *(mi.UInt32(flags) for flags in self.flags))
-        return bs, dr.select(active, value / chance, 0.0)
+        return bs, dr.select(active, value / dr.select(active, chance, 1.0), 0.0)
 
     def lobes(
         self, ctx: mi.BSDFContext, si: mi.SurfaceInteraction3f, cos_i: mi.Float, active: mi.Bool
