@@ -51,9 +51,9 @@ def expected(file: Path, cos_theta: float, thickness_scale: float) -> FloatArray
 
 def wavelengths_nm(file: Path) -> FloatArray:
     """Return those of a spectral texture, in the order of its channels, after the preview's three."""
-    import OpenImageIO as oiio
+    import OpenImageIO
 
-    names = oiio.ImageInput.open(str(file)).spec().channelnames[3:]
+    names = OpenImageIO.ImageInput.open(str(file)).spec().channelnames[3:]
     return np.array([float(name.removeprefix("T.").removesuffix("nm").replace(",", ".")) for name in names])
 
 

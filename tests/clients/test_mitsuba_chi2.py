@@ -11,7 +11,7 @@ from mitsuba_plugin import context, direction, table_file, use_variant
 
 ROUGHNESSES = [{"alpha": 0.3}, {"alpha": 0.4, "distribution": "beckmann"}, {"alpha_u": 0.2, "alpha_v": 0.5}]
 COSINES = [0.95, 0.3, -0.8, -0.1]
-"""From the incident medium and the substrate, near the normal and grazing; the last beyond the critical angle."""
+"""From both sides, near the normal and grazing; the last beyond the critical angle."""
 LOBES = {"both": None, "reflection": 0, "transmission": 1}
 VARIANTS = ["llvm_ad_rgb", "llvm_ad_spectral"]
 TESTS = len(list(itertools.product(ROUGHNESSES, COSINES, LOBES, VARIANTS)))

@@ -35,7 +35,7 @@ N_GLASS = 1.5
 
 
 def bare_spec(substrate: object) -> dict[str, Any]:
-    """Return a substrate in vacuum under a layer of no thickness, at the places where a table is fine enough."""
+    """Return a substrate in vacuum under a layer of no thickness, sampled finely."""
     nothing = {"material": {"n": 2.0}, "thickness_nm": 0.0}
     return {
         "stack": {"incident": "vacuum", "substrate": substrate, "layers": [nothing]},
@@ -45,14 +45,14 @@ def bare_spec(substrate: object) -> dict[str, Any]:
 
 def interpolation_error(file: Path) -> float:
     """Return the largest error between texels, which the file itself certifies."""
-    import OpenImageIO as oiio
+    import OpenImageIO
 
-    certificate = oiio.ImageInput.open(str(file)).spec().getattribute("nacreous:certificate")
+    certificate = OpenImageIO.ImageInput.open(str(file)).spec().getattribute("nacreous:certificate")
     return json.loads(certificate)["intensity_error_max"]
 
 
 def pairs(variant: str, seed: int) -> list[tuple[FloatArray, FloatArray]]:
-    """Return pairs of directions, (P, 3) each or (3,) in a scalar variant, as often as the variant is asked."""
+    """Return pairs of directions, (P, 3) each or (3,) in a scalar variant, as often as it is asked."""
     both = random_directions(2 * PAIRS[variant] * ROUNDS[variant], seed).reshape(ROUNDS[variant], 2, -1, 3)
     return [(i, o) if "llvm" in variant else (i[0], o[0]) for i, o in both]
 
@@ -68,7 +68,7 @@ def values(bsdf: object, wi: FloatArray, wo: FloatArray, mode: str) -> FloatArra
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("roughness", ROUGHNESSES)
 def test_light_and_radiance_are_adjoint(roughness: dict[str, float], variant: str, tmp_path: Path) -> None:
-    """F of the flux from i to o is f of the radiance from o to i (Veach 1997, section 5.2), on either side."""
+    """For flux from i to o as for radiance from o to i (Veach 1997, section 5.2), on either side."""
     use_variant(variant)
     bsdf = film(table_file(tmp_path, variant, CONTRACT_SPEC), thickness_scale=0.9, **roughness)
     for i, o in pairs(variant, seed=5):
