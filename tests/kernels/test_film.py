@@ -5,6 +5,7 @@ import pytest
 import tmm
 
 from kernel_film import DOUBLE_TOLERANCE, kernel_film, tolerance
+from lane_widths import lane_widths
 from nacreous.opencl.device import Device
 from nacreous.opencl.film import NAMES, film_intensities
 from nacreous.opencl.precision import Precision
@@ -172,14 +173,14 @@ def test_a_strong_mirror_written_out(pairs: int, precision: Precision) -> None:
     ids=["layers", "a group on a thick layer"],
 )
 def test_lanes_do_not_matter(
-    groups: list[tuple[int, int, int]], coherent: list[bool] | None, precision: Precision
+    groups: list[tuple[int, int, int]], coherent: list[bool] | None, precision: Precision, device: Device
 ) -> None:
     """A wavelength's result does not depend on its neighbours: 21 of them in lanes of 1, 4, 8 and 16."""
     index = [1.3, 1.56 + 0.03j, 1.0, 1.7, 0.9 + 3j]
     arguments = (index, [110, 90, 40], np.linspace(380, 780, 21), np.linspace(0, 1, 7))
     by_width = [
         np.stack(kernel_film(*arguments, groups=groups, coherent=coherent, precision=precision, lanes=lanes))
-        for lanes in (1, 4, 8, 16)
+        for lanes in lane_widths(device, precision)
     ]
     for other in by_width[1:]:
         np.testing.assert_allclose(other, by_width[0], rtol=0, atol=1e-6 * tolerance(precision) / 2e-5)

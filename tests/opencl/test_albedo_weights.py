@@ -16,6 +16,7 @@ from kernel_surface import (
     mirrored_flux,
     stretched_hemisphere,
 )
+from lane_widths import lane_widths
 from nacreous.errors import BudgetError
 from nacreous.opencl import tiles
 from nacreous.opencl.albedo_weights import AlbedoProblem, albedo_weights
@@ -181,7 +182,7 @@ def test_precisions_and_lanes_agree(distribution: str, device: Device) -> None:
     problem = replace(reflected(surface, COSINES[::3]), rule=FacetRule(33, 10, 3))
     exact = albedo_weights(device, problem, Precision.DOUBLE)
     for precision, tolerance in ((Precision.SINGLE, 2e-5), (Precision.DOUBLE, 1e-12)):
-        for lanes in (1, 4, 8, 16):
+        for lanes in lane_widths(device, precision):
             got = albedo_weights(device, problem, precision, lanes=lanes)
             np.testing.assert_allclose(got, exact, rtol=0, atol=tolerance)
 

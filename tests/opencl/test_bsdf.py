@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from kernel_surface import COMBINATIONS, FACETS, ISOTROPIC, facets_of, random_directions
+from lane_widths import lane_widths
 from nacreous.errors import BudgetError
 from nacreous.opencl import tiles
 from nacreous.opencl.bsdf import BsdfProblem, Pairs, bsdf_colours, bsdf_spectra
@@ -163,7 +164,7 @@ def test_precisions_and_lanes_agree(
     exact = bsdf_spectra(device, problem, Precision.DOUBLE)
     brightest = exact.max()
     for precision, tolerance in ((Precision.SINGLE, 1e-4), (Precision.DOUBLE, 1e-12)):
-        for lanes in (1, 4, 8, 16):
+        for lanes in lane_widths(device, precision):
             got = bsdf_spectra(device, problem, precision, lanes=lanes)
             np.testing.assert_allclose(got / brightest, exact / brightest, rtol=0, atol=tolerance)
 

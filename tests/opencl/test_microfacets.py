@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from kernel_surface import FACETS, ISOTROPIC, ROUGH, STRETCHED, alphas_of, facets_of, stretched_hemisphere
+from lane_widths import lane_widths
 from nacreous.errors import BudgetError
 from nacreous.opencl import tiles
 from nacreous.opencl.device import Device
@@ -119,7 +120,7 @@ def test_precisions_and_lanes_agree(distribution: str, device: Device) -> None:
     h, _ = stretched_hemisphere((0.3, 0.3), 12, 11)
     exact = microfacets(device, surface, h, Precision.DOUBLE)
     for precision, tolerance in ((Precision.SINGLE, 1e-5), (Precision.DOUBLE, 1e-13)):
-        for lanes in (1, 4, 8, 16):
+        for lanes in lane_widths(device, precision):
             got = microfacets(device, surface, h, precision, lanes=lanes)
             peak = exact[0].max(axis=1, keepdims=True)
             np.testing.assert_allclose(got[0] / peak, exact[0] / peak, rtol=0, atol=tolerance)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from lane_widths import lane_widths
 from nacreous.errors import DeviceError
 from nacreous.opencl import sources
 from nacreous.opencl.device import Device
@@ -16,7 +17,7 @@ from nacreous.opencl.program import Build, kernel_of
 
 def test_a_kernel_is_built_once(device: Device) -> None:
     """The same build is the same kernel; in another lane width it is another."""
-    build = Build("film", Precision.SINGLE, 16, (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4)))
+    build = Build("film", Precision.SINGLE, 4, (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4)))
     assert kernel_of(device, build) is kernel_of(device, build)
     assert kernel_of(device, replace(build, lanes=1)) is not kernel_of(device, build)
 
@@ -48,7 +49,6 @@ def test_a_fault_is_found_by_file_and_line(
     assert told in str(refused.value)
 
 
-LANES = (1, 4, 8, 16)
 FACET_NUMBERS = [
     (("DISTRIBUTION", distribution), ("MASKING", masking), ("AREA_COSINES", 257), ("AREA_AZIMUTHS", 17))
     for distribution, masking in product(range(5), range(3))
@@ -64,19 +64,21 @@ FILM_NUMBERS = {
 ROUGH_KERNELS = ("microfacet_area", "albedo_weights", "bsdf", "bsdf_colour")
 
 
+def ways_to_build(device: Device) -> list[tuple[Precision, int]]:
+    """Both precisions, each in every lane width."""
+    return [(precision, lanes) for precision in Precision for lanes in lane_widths(device, precision)]
+
+
 def test_every_kernel_is_built_here() -> None:
     """A new kernel must be added below."""
-    assert sorted([*FILM_NUMBERS, *ROUGH_KERNELS, "microfacets"]) == sources.kernel_names()
+    assert sorted([*FILM_NUMBERS, *ROUGH_KERNELS, "microfacets", "register_width"]) == sources.kernel_names()
 
 
 @pytest.mark.parametrize("kernel", FILM_NUMBERS)
 @pytest.mark.parametrize("precision", Precision)
-@pytest.mark.parametrize("lanes", LANES)
-def test_film_kernels_build_without_a_warning(
-    kernel: str, precision: Precision, lanes: int, device: Device
-) -> None:
+def test_film_kernels_build_without_a_warning(kernel: str, precision: Precision, device: Device) -> None:
     """With -Werror, for every precision and lane width; the options on and off."""
-    for switch in (0, 1):
+    for lanes, switch in product(lane_widths(device, precision), (0, 1)):
         numbers = (*((name, switch) for name in FILM_NUMBERS[kernel]), ("MEDIA", 4))
         assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel
 
@@ -84,7 +86,7 @@ def test_film_kernels_build_without_a_warning(
 @pytest.mark.parametrize("numbers", FACET_NUMBERS)
 def test_facets_build_in_every_way(numbers: tuple[tuple[str, int], ...], device: Device) -> None:
     """Every distribution and masking in both precisions and every lane width: no warning, 120 kernels."""
-    for precision, lanes in product(Precision, LANES):
+    for precision, lanes in ways_to_build(device):
         kernel = kernel_of(device, Build("microfacets", precision, lanes, numbers))
         assert kernel.function_name == "microfacets"
 
@@ -92,7 +94,7 @@ def test_facets_build_in_every_way(numbers: tuple[tuple[str, int], ...], device:
 @pytest.mark.parametrize("kernel", ROUGH_KERNELS)
 def test_rough_kernels_build_in_every_width(kernel: str, device: Device) -> None:
     """Both precisions, every lane width, both sides; of all that facets can be, a few."""
-    ways = list(product(Precision, LANES, (0, 1)))
-    for way, (precision, lanes, transmission) in enumerate(ways):
+    ways = product(ways_to_build(device), (0, 1))
+    for way, ((precision, lanes), transmission) in enumerate(ways):
         numbers = (*FACET_NUMBERS[7 * way % len(FACET_NUMBERS)], ("TRANSMISSION", transmission))
         assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel

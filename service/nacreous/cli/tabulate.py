@@ -37,19 +37,24 @@ def tabulate(
     began = perf_counter()
     check_folder(output)
     chosen = [FORMATS[name] for name in dict.fromkeys(formats or [FormatName.EXR])]
-    table = _computed(load(spec, assignments or ()), chosen)
-    output.mkdir(parents=True, exist_ok=True)
-    for path, written_as in _written(table, chosen, output / file_stem(spec)):
-        print(_record(table, path, written_as, perf_counter() - began) if as_json else path, flush=True)
+    for table, formats_of_it in _computed(load(spec, assignments or ()), chosen):
+        output.mkdir(parents=True, exist_ok=True)
+        for path, written_as in _written(table, formats_of_it, output / file_stem(spec)):
+            print(_record(table, path, written_as, perf_counter() - began) if as_json else path, flush=True)
 
 
-def _computed(spec: "Spec", formats: "Sequence[Format]") -> "Table":
+def _computed(spec: "Spec", formats: "Sequence[Format]") -> "Iterator[tuple[Table, tuple[Format, ...]]]":
+    """Yield one table for each sampling, and the formats that it is written in."""
     from nacreous.cli.progress import progress
     from nacreous.formats.registry import parts_of
     from nacreous.tables.tabulate import tabulate_table
 
-    with progress("tabulating") as observer:
-        return tabulate_table(spec, parts_of(formats, spec), observer=observer)
+    parts_of(formats, spec)  # what a format cannot hold is refused before any is written
+    for sampling in dict.fromkeys(chosen.sampling for chosen in formats):
+        alike = tuple(chosen for chosen in formats if chosen.sampling is sampling)
+        with progress("tabulating") as observer:
+            table = tabulate_table(spec, parts_of(alike, spec), sampling=sampling, observer=observer)
+        yield table, alike
 
 
 def _written(table: "Table", formats: "Sequence[Format]", stem: Path) -> "Iterator[tuple[Path, Format]]":

@@ -7,6 +7,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from nacreous.tables.digest import digest
+from nacreous.tables.sampling import Sampling
 
 __all__ = ["CHECKSUM", "PREFIX", "Contents", "checksum", "labelled", "provenance_of"]
 
@@ -30,11 +31,14 @@ class Contents:
         ``id``, ``version``, ``spec``, ``certificate`` and the rest, without their prefix.
     checksum : str
         What `checksum` gives for the file as it is; ``provenance["checksum"]`` is what it was.
+    sampling : Sampling
+        Where the table of the file is sampled.
     """
 
     arrays: Mapping[str, NDArray[Any]]
     provenance: Mapping[str, str]
     checksum: str
+    sampling: Sampling = Sampling.AXES
 
 
 def checksum(attributes: Iterable[tuple[str, object]], values: Iterable[bytes]) -> str:

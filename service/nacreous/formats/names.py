@@ -14,3 +14,5 @@ class FormatName(StrEnum):
     NETCDF = "netcdf"
     CSV = "csv"
     PNG = "png"
+    RGL = "rgl"
+    RGL_RGB = "rgl-rgb"

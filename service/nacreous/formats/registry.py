@@ -11,24 +11,28 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from nacreous.errors import SpecError
-from nacreous.formats import csv, exr, netcdf, npz, png, spectral_exr
+from nacreous.formats import csv, exr, netcdf, npz, png, rgl, spectral_exr
 from nacreous.formats.atlas import LAYOUTS
 from nacreous.formats.contents import Contents
 from nacreous.formats.names import FormatName
 from nacreous.optics.value import did_you_mean, shown
 from nacreous.tables.axes import wavelength_values_nm
 from nacreous.tables.colour import has_colour
+from nacreous.tables.sampling import Sampling
 from nacreous.tables.spec import Spec
 from nacreous.tables.table import Part, Table
+from nacreous.tables.tabulate import tabulate_table
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["FORMATS", "Format", "check_holds", "find_format", "format_of", "parts_of", "write"]
+__all__ = ["FORMATS", "Format", "check_holds", "find_format", "format_of", "parts_of", "sampled_for", "write"]
 
 _COLOUR = frozenset({Part.COLOUR})
 _SPECTRUM = frozenset({Part.SPECTRUM})
 _BOTH = _COLOUR | _SPECTRUM
+_NOTHING = frozenset[Part]()
+_BSDF = frozenset({"bsdf"})
 
 
 def _accept(_: Spec) -> None:
@@ -59,6 +63,8 @@ class Format:
         Of which quantities the file can be.
     check : callable
         Refuses a spec of such a quantity whose table the file cannot hold; raises `SpecError`.
+    sampling : Sampling
+        Where the table of the file is sampled. One whose readers fix that holds no parts of another.
     """
 
     name: FormatName
@@ -71,6 +77,7 @@ class Format:
     read: Callable[[Path], Contents]
     quantities: frozenset[str] = frozenset(LAYOUTS)
     check: Callable[[Spec], None] = _accept
+    sampling: Sampling = Sampling.AXES
 
 
 _ALL = (
@@ -136,6 +143,32 @@ _ALL = (
         png.write,
         png.read,
     ),
+    Format(
+        FormatName.RGL,
+        rgl.SUFFIX,
+        _NOTHING,
+        _NOTHING,
+        "application/octet-stream",
+        "measured material with spectra for Mitsuba 3 and pbrt-v4, reflection alone",
+        rgl.write,
+        rgl.read,
+        quantities=_BSDF,
+        check=rgl.check,
+        sampling=Sampling.RGL_SPECTRA,
+    ),
+    Format(
+        FormatName.RGL_RGB,
+        rgl.COLOUR_SUFFIX,
+        _NOTHING,
+        _NOTHING,
+        "application/octet-stream",
+        "measured material in RGB for Mitsuba 3 and Falcor, reflection alone",
+        rgl.write_colours,
+        rgl.read_colours,
+        quantities=_BSDF,
+        check=rgl.check_colours,
+        sampling=Sampling.RGL_COLOURS,
+    ),
 )
 
 FORMATS: Mapping[FormatName, Format] = MappingProxyType({entry.name: entry for entry in _ALL})
@@ -165,7 +198,9 @@ def check_holds(chosen: Format, spec: Spec) -> None:
     quantity = spec.table.quantity
     if quantity not in chosen.quantities:
         able = ", ".join(entry.name for entry in _ALL if quantity in entry.quantities)
-        raise SpecError("format", f"one that holds a {quantity} table ({able})", f'"{chosen.name}"')
+        held = " or ".join(f'"{name}"' for name in sorted(chosen.quantities))
+        remedy = f"{chosen.name} is for table.quantity = {held}"
+        raise SpecError("format", f"one that holds a {quantity} table ({able})", f'"{chosen.name}"', remedy)
     chosen.check(spec)
 
 
@@ -199,6 +234,8 @@ def write(
     format : str, optional
         Name of a format; without one it follows from the suffix of `path`.
 
+    A format whose readers fix the directions has them computed from the table's spec.
+
     Returns
     -------
     tuple of Path
@@ -213,6 +250,13 @@ def write(
     """
     target = Path(path)
     chosen = format_of(target) if format is None else find_format(format)
-    computed = table if isinstance(table, Table) else Table.from_xarray(table)
-    check_holds(chosen, computed.spec)
-    return chosen.write(computed, target)
+    given = table if isinstance(table, Table) else Table.from_xarray(table)
+    check_holds(chosen, given.spec)
+    return chosen.write(sampled_for(chosen, given), target)
+
+
+def sampled_for(chosen: Format, table: Table) -> Table:
+    """Return the table, or where the readers of the format want other samples the same spec's at these."""
+    if chosen.sampling is table.sampling:
+        return table
+    return tabulate_table(table.spec, parts_of([chosen], table.spec), sampling=chosen.sampling)

@@ -17,6 +17,7 @@ from nacreous.opencl.sources import kernels_hash
 from nacreous.optics.value import shown
 from nacreous.tables.certificate import certificate_fields
 from nacreous.tables.identity import table_id
+from nacreous.tables.sampling import Sampling
 from nacreous.tables.spec import Spec
 from nacreous.tables.spec_document import Syntax
 
@@ -75,7 +76,9 @@ def _check_figures(contents: Contents, spec: Spec) -> Iterator[str]:
     certificate = _parsed(contents.provenance.get("certificate", ""))
     if not isinstance(certificate, dict) or foreign_kernels(contents):
         return
-    absent = [name for name in certificate_fields(spec.table.quantity) if name not in certificate]
+    absent = [
+        name for name in certificate_fields(spec.table.quantity, contents.sampling) if name not in certificate
+    ]
     if absent:
         yield f"nacreous:certificate: expected the figures {', '.join(absent)}, got none"
 
@@ -97,7 +100,9 @@ def _check_colour(contents: Contents, spec: Spec) -> Iterator[str]:
 
 
 def _check_arrays(contents: Contents, spec: Spec) -> Iterator[str]:
-    """Compare axes that are arrays with the spec's."""
+    """Compare axes that are arrays with the spec's; those of a measured material are its readers'."""
+    if contents.sampling is not Sampling.AXES:
+        return
     refined = spec.accuracy.delta_e is not None
     axes = spec_axes(spec)
     for name in axes.keys() & contents.arrays.keys():
@@ -115,7 +120,7 @@ def _is_axis(got: NDArray[np.float64], expected: NDArray[np.float64], *, refined
 def _check_picture(contents: Contents, spec: Spec) -> Iterator[str]:
     """Compare what a picture says of itself with what its spec makes of it; arrays have axes of their own."""
     layout = LAYOUTS[spec.table.quantity]
-    if layout.x in contents.arrays:
+    if layout.x in contents.arrays or contents.sampling is not Sampling.AXES:
         return
     wanted = atlas_of(spec.table.quantity, spec_axes(spec)).described()
     yield from _check_promised(contents, ("quantity", *wanted, *colour_facts(spec.colour)))

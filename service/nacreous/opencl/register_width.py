@@ -1,7 +1,7 @@
 """How wide a device's vectors are: the host of kernels/register_width.cl.
 
-What a device prefers is what its processor has. What its compiler makes use of can be less, and lanes that are
-wider than its registers do not build.
+What a device prefers is what its processor has. What its compiler makes use of can be less, and lanes that
+are wider than its registers do not build.
 """
 
 import functools
@@ -12,9 +12,9 @@ import numpy as np
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.sources import complete_source
 
-__all__ = ["lane_width"]
+__all__ = ["LANE_WIDTHS", "lane_width"]
 
-_WIDTHS = (16, 8, 4, 1)
+LANE_WIDTHS = (16, 8, 4, 1)
 """Lane widths that the kernels are built for."""
 
 
@@ -28,7 +28,7 @@ def lane_width(device: Any, precision: Precision) -> int:  # noqa: ANN401 - pyop
     if preferred > 1:
         bits = _register_bits(device)
         preferred = min(preferred, bits // precision.value) if bits else preferred
-    return next(width for width in _WIDTHS if width <= max(1, preferred))
+    return next(width for width in LANE_WIDTHS if width <= max(1, preferred))
 
 
 @functools.cache

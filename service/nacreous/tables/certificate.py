@@ -8,6 +8,8 @@ from nacreous.tables.albedo.certificate import AlbedoCertificate
 from nacreous.tables.bsdf.certificate import BsdfCertificate
 from nacreous.tables.figures import Figures
 from nacreous.tables.fresnel.certificate import FresnelCertificate
+from nacreous.tables.measured.certificate import MeasuredCertificate
+from nacreous.tables.sampling import Sampling
 
 __all__ = ["certificate_fields"]
 
@@ -16,6 +18,7 @@ _CERTIFICATES: Mapping[str, type[Figures]] = MappingProxyType(
 )
 
 
-def certificate_fields(quantity: str) -> tuple[str, ...]:
-    """Return the names of the figures that a table of this quantity is certified with."""
-    return tuple(field.name for field in fields(_CERTIFICATES[quantity]))
+def certificate_fields(quantity: str, sampling: Sampling = Sampling.AXES) -> tuple[str, ...]:
+    """Return the names of the figures that a table of this quantity, sampled there, is certified with."""
+    certificate = _CERTIFICATES[quantity] if sampling is Sampling.AXES else MeasuredCertificate
+    return tuple(field.name for field in fields(certificate))

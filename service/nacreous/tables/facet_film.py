@@ -58,6 +58,10 @@ class FacetFilm:
         """Return the film in double precision at twice as many nodes: what errors are measured against."""
         return FacetFilm(replace(self.solver, precision=Precision.DOUBLE), 2 * self.nodes - 1, self.error)
 
+    def opaque(self) -> "FacetFilm":
+        """Return the film without what it transmits, which is lost."""
+        return replace(self, solver=replace(self.solver, transmits=False))
+
     def spectra(self, thickness_scale: FloatArray, wavelength_nm: FloatArray) -> dict[Side, FloatArray]:
         """Unpolarised R and T at the nodes, shape (S, K, L) each."""
         return _unpolarised(self.solver, Grid(thickness_scale, self.cosines, wavelength_nm))

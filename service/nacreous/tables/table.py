@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from nacreous.errors import FileFormatError
 from nacreous.tables.digest import array_bytes, digest
+from nacreous.tables.sampling import Sampling
 from nacreous.tables.spec import Spec
 from nacreous.tables.spec_document import Syntax
 
@@ -71,12 +72,15 @@ class Table:
         Axes, each named as its dimension, and the quantities over them.
     provenance : mapping of str to str
         ``id``, ``version``, ``spec`` and ``certificate`` (both JSON), ``precision``, ``device``, ``kernels``.
+    sampling : Sampling
+        Where it is sampled.
     """
 
     spec: Spec
     coords: Mapping[str, Variable]
     variables: Mapping[str, Variable]
     provenance: Mapping[str, str]
+    sampling: Sampling = Sampling.AXES
 
     @property
     def id(self) -> str:

@@ -61,6 +61,9 @@ class TableSpec(StrictModel):
     phi_i : count, list or range, optional
         bsdf of an anisotropic surface: azimuth of the incoming light, -pi to pi; 5 where left out. A count
         spaces it equally over 0 to pi / 2: the other quarters are its mirror images.
+    transmission : str
+        albedo and bsdf: ``"keep"``, or ``"discard"`` to take what is transmitted as lost, for files and
+        renderers that know reflected light alone.
     ellipsometry : bool
         fresnel: whether the table holds psi and Delta as well.
     """
@@ -74,6 +77,7 @@ class TableSpec(StrictModel):
     theta_o: PolarAngleAxis = None
     phi: AzimuthAxis = None
     phi_i: AzimuthAxis = None
+    transmission: Literal["keep", "discard"] = "keep"
     ellipsometry: bool = False
 
     @model_validator(mode="after")
@@ -83,6 +87,10 @@ class TableSpec(StrictModel):
             got = f"{thickness_scale_values(self.thickness_scale).size} factors"
             remedy = "make one table for each thickness"
             raise refusal("1 for a bsdf, which has one thickness", got, remedy, field="thickness_scale")
+        if self.transmission == "discard" and self.quantity == "fresnel":
+            expected = '"keep" for a film, whose T belongs to it'
+            remedy = 'leave transmission out, or take quantity = "bsdf" or "albedo"'
+            raise refusal(expected, '"discard"', remedy, field="transmission")
         if self.ellipsometry and self.quantity != "fresnel":
             expected = f"false: psi and Delta are of a smooth film, and the quantity is {self.quantity}"
             remedy = 'leave ellipsometry out, or take quantity = "fresnel"'

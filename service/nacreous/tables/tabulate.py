@@ -13,6 +13,8 @@ from nacreous.tables.bsdf.table import compute_bsdf
 from nacreous.tables.computed import Computed, wanted_parts
 from nacreous.tables.fresnel.table import compute_fresnel
 from nacreous.tables.identity import table_id
+from nacreous.tables.measured.rgl import compute_rgl_colours, compute_rgl_spectra
+from nacreous.tables.sampling import Sampling
 from nacreous.tables.spec import Spec
 from nacreous.tables.table import Part, Table
 
@@ -22,9 +24,18 @@ _QUANTITIES: Mapping[str, Callable[[Device, Spec, frozenset[Part], Observer | No
     MappingProxyType({"fresnel": compute_fresnel, "albedo": compute_albedo, "bsdf": compute_bsdf})
 )
 
+_MEASURED: Mapping[Sampling, Callable[[Device, Spec, Observer | None], Computed]] = MappingProxyType(
+    {Sampling.RGL_SPECTRA: compute_rgl_spectra, Sampling.RGL_COLOURS: compute_rgl_colours}
+)
+"""What is sampled where readers of measured materials want it: a bsdf each."""
+
 
 def tabulate_table(
-    spec: Spec, parts: Collection[Part] | None = None, *, observer: Observer | None = None
+    spec: Spec,
+    parts: Collection[Part] | None = None,
+    *,
+    sampling: Sampling = Sampling.AXES,
+    observer: Observer | None = None,
 ) -> Table:
     """Compute a table.
 
@@ -32,8 +43,10 @@ def tabulate_table(
     ----------
     spec : Spec
     parts : collection of Part, optional
-        What is computed; everything that the spec has, without it. A spec whose wavelengths do not span the
-        visible has no colour.
+        What is computed along the spec's axes; everything that the spec has, without it. A spec whose
+        wavelengths do not span the visible has no colour.
+    sampling : Sampling
+        Along the axes of the spec, or where the readers of a file want it; the latter is one whole.
     observer : callable, optional
         Told the fraction done; what it raises ends the work.
 
@@ -46,9 +59,12 @@ def tabulate_table(
     DeviceError, NumericalError
     """
     device = open_device()
-    wanted = wanted_parts(parts, wavelength_values_nm(spec.table.wavelength_nm))
-    computed = _QUANTITIES[spec.table.quantity](device, spec, wanted, observer)
-    return Table(spec, computed.coords, computed.variables, _provenance(spec, device, computed))
+    if sampling is Sampling.AXES:
+        wanted = wanted_parts(parts, wavelength_values_nm(spec.table.wavelength_nm))
+        computed = _QUANTITIES[spec.table.quantity](device, spec, wanted, observer)
+    else:
+        computed = _MEASURED[sampling](device, spec, observer)
+    return Table(spec, computed.coords, computed.variables, _provenance(spec, device, computed), sampling)
 
 
 def _provenance(spec: Spec, device: Device, computed: Computed) -> dict[str, str]:

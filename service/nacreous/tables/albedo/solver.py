@@ -254,6 +254,8 @@ def albedo_solver(device: Device, spec: Spec) -> AlbedoSolver:
     """
     asked, grid, surface = asked_precision(spec), grid_of(spec), surface_of(spec)
     film = facet_film(device, spec.stack, grid, asked)
+    if spec.table.transmission == "discard":
+        film = film.opaque()
     solver = AlbedoSolver(device, surface, film, _RULES[surface.anisotropic], asked)
     return _settled(solver, roughness_values(spec), grid)
 

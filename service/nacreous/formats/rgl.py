@@ -1,0 +1,124 @@
+"""``rgl`` and ``rgl-rgb``: measured materials for Mitsuba 3, pbrt-v4 and Falcor, as they are.
+
+``film.bsdf`` is what Mitsuba's ``measured`` plugin loads in spectral variants, and pbrt-v4's ``measured``
+material; ``film.rgb.bsdf`` is for Mitsuba's RGB variants and for Falcor. Both are tensor files
+(`nacreous.formats.tensor_file`) in the layout of the RGL material database (J. Dupuy and W. Jakob 2018).
+
+==================  =====================  =================================================================
+field               shape                  meaning
+==================  =====================  =================================================================
+``description``     text                   the spec's name
+``jacobian``        1                      1: f has been divided by ndf / (4 sigma)
+``phi_i``           Q                      azimuth of the incoming light in radians; 0 alone if isotropic
+``theta_i``         I                      its angle to the normal in radians, 0 to 89 degrees
+``ndf, sigma``      G, K                   distribution of facets, and their projected area
+``vndf``            Q, I, H, W             density over facets, which the square is warped by
+``luminance``       Q, I, N, N             what a renderer samples first
+``spectra``         Q, I, L, N, N          ``rgl``: f cos_o 4 sigma / ndf
+``wavelengths``     L                      ``rgl``: in nm; a reader interpolates, and holds the outermost
+``rgb``             Q, I, 3, N, N          ``rgl-rgb``: the same in linear colours
+==================  =====================  =================================================================
+
+Facets and directions lie on the square by theta = u^2 pi / 2 along its last axis and phi = (2 u - 1) pi along
+the one before. `nacreous.tables.measured.rgl` derives the tables. They hold reflected light alone, on one
+side, of one roughness: what a spec transmits is refused unless it gives it up (`table.transmission`), and so
+are roughnesses below 0.02, whose lobes are narrower than the grid. Files are of 1 to 20 MB, up to 40 of an
+anisotropic surface; the certificate states the error that a reader has.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.errors import SpecError
+from nacreous.formats.contents import Contents
+from nacreous.formats.lookup import colour_facts, required
+from nacreous.formats.tensor_file import read_tensors, text, write_tensors
+from nacreous.optics.surface import alphas_at
+from nacreous.tables.measured.surface import check_one_roughness, check_opaque
+from nacreous.tables.sampling import Sampling
+from nacreous.tables.spec import Spec, roughness_values, surface_of
+from nacreous.tables.table import Table
+
+__all__ = [
+    "COLOUR_SUFFIX",
+    "SUFFIX",
+    "check",
+    "check_colours",
+    "read",
+    "read_colours",
+    "write",
+    "write_colours",
+]
+
+SUFFIX, COLOUR_SUFFIX = ".bsdf", ".rgb.bsdf"
+LEAST_ALPHA = 0.02
+_FACETS = ("ndf", "sigma", "vndf", "luminance")
+
+
+def write(table: Table, path: Path) -> tuple[Path, ...]:
+    """Write the spectra of `table` and return the file; raises `FileFormatError`."""
+    spectra = {
+        "spectra": required(table, "spectra"),
+        "wavelengths": _single(table, "wavelength_nm"),
+    }
+    return _write(table, path, spectra, table.provenance)
+
+
+def write_colours(table: Table, path: Path) -> tuple[Path, ...]:
+    """Write the colours of `table` and return the file; raises `FileFormatError`."""
+    facts = {**table.provenance, **colour_facts(table.spec.colour)}
+    return _write(table, path, {"rgb": required(table, "rgb")}, facts)
+
+
+def _write(
+    table: Table, path: Path, values: Mapping[str, NDArray[Any]], provenance: Mapping[str, str]
+) -> tuple[Path, ...]:
+    fields: dict[str, NDArray[Any]] = {
+        "description": text(table.spec.name or "a film by Nacreous"),
+        "jacobian": np.ones(1, np.uint8),
+        **{name: _single(table, name) for name in ("phi_i", "theta_i")},
+        **{name: required(table, name) for name in _FACETS},
+        **values,
+    }
+    write_tensors(path, fields, provenance)
+    return (path,)
+
+
+def _single(table: Table, axis: str) -> NDArray[np.float32]:
+    return table.values(axis).astype(np.float32)
+
+
+def read(path: Path) -> Contents:
+    """Return all fields and the provenance; raises `FileFormatError`."""
+    return read_tensors(path, Sampling.RGL_SPECTRA)
+
+
+def read_colours(path: Path) -> Contents:
+    """Return all fields and the provenance; raises `FileFormatError`."""
+    return read_tensors(path, Sampling.RGL_COLOURS)
+
+
+def check(spec: Spec) -> None:
+    """Refuse a spec whose meaning the file would lose; raises `SpecError` with what holds it."""
+    _check(spec, "rgl")
+
+
+def check_colours(spec: Spec) -> None:
+    """Refuse a spec whose meaning the file would lose, or whose colours a renderer would take for Rec.709."""
+    _check(spec, "rgl-rgb")
+    if spec.colour.space == "XYZ":
+        raise SpecError("colour.space", "a space of red, green and blue for rgl-rgb", '"XYZ"')
+
+
+def _check(spec: Spec, name: str) -> None:
+    check_one_roughness(spec, name)
+    check_opaque(spec, name, "mbsdf")
+    least = float(alphas_at(surface_of(spec), roughness_values(spec)).min())
+    if least < LEAST_ALPHA:
+        expected = f"an alpha of at least {LEAST_ALPHA:g} for {name}, whose grid is wider than such a lobe"
+        remedy = 'take quantity = "fresnel" as exr, and the renderer\'s own microfacets'
+        raise SpecError("surface.alpha_x", expected, f"{least:.4g}", remedy)

@@ -1,0 +1,151 @@
+"""What a measured file's numbers are worth: what a reader makes of them, against the bsdf itself.
+
+Readers interpolate along paths of their own, so that no cell of directions has a middle to look at. Pairs are
+drawn instead, always the same: along the lobe, as a renderer samples it, and all over the hemisphere.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.opencl.bsdf import Pairs
+from nacreous.tables.bsdf.solver import BsdfSolver
+from nacreous.tables.figures import Figures
+from nacreous.tables.measured.rgl_grid import unit_vectors
+from nacreous.tables.measured.surface import Shades
+
+__all__ = ["MeasuredCertificate", "certify"]
+
+FloatArray = NDArray[np.float64]
+
+_PAIRS, _CANDIDATES = 2048, 8
+"""Pairs of each kind, and how many are drawn for one that is kept."""
+_STEEPEST = np.radians(75.0)
+"""Angle of incidence up to which is compared."""
+_DARK = 1e-6
+"""Part of the largest f cos_o below which nothing is seen, and nothing compared."""
+
+
+@dataclass(frozen=True)
+class MeasuredCertificate(Figures):
+    """Measured errors of a file, as a reader of its format evaluates it.
+
+    Parameters
+    ----------
+    held_out_points : int
+        Values that were compared, for light from up to 75 degrees and in the middle between wavelengths.
+    grid_error_median, grid_error_p90 : float
+        Relative error of f along the lobe at the wavelengths of the file, by quantile: what its grid of
+        directions costs.
+    lobe_error_median, lobe_error_p90, lobe_error_p99 : float
+        Relative error of f along the lobe, by quantile.
+    lobe_energy_error : float
+        Relative difference of the light that goes there in all, with its sign.
+    wide_error_median, wide_error_p90 : float
+        Relative error of f all over the hemisphere, where it is not dark.
+    film_error : float
+        Largest error of R and T between the nodes that facets take them from.
+    energy_max : float
+        Largest albedo E_r + E_t.
+    nonfinite : int
+        Values that are not finite.
+    """
+
+    held_out_points: int
+    grid_error_median: float
+    grid_error_p90: float
+    lobe_error_median: float
+    lobe_error_p90: float
+    lobe_error_p99: float
+    lobe_energy_error: float
+    wide_error_median: float
+    wide_error_p90: float
+    film_error: float
+    energy_max: float
+    nonfinite: int
+
+
+def certify(
+    solver: BsdfSolver, shades: Shades, evaluate: Callable[[Pairs], FloatArray], energy_max: float
+) -> MeasuredCertificate:
+    """Compare f cos_o as `evaluate` reads it, (P, C), with the bsdf in double precision."""
+    exact, held_out = solver.exact(), shades.held_out()
+    along, over = _along_the_lobe(exact, shades), _wide()
+    read = evaluate(along)
+    grid = _compared(_f_cos(shades, exact, along), read)
+    lobe = _compared(_f_cos(held_out, exact, along), shades.between(read))
+    wide = _compared(_f_cos(held_out, exact, over), shades.between(evaluate(over)))
+    errors = np.concatenate([lobe.relative, wide.relative])
+    return MeasuredCertificate(
+        held_out_points=int(errors.size),
+        grid_error_median=float(np.median(grid.relative)),
+        grid_error_p90=float(np.quantile(grid.relative, 0.9)),
+        lobe_error_median=float(np.median(lobe.relative)),
+        lobe_error_p90=float(np.quantile(lobe.relative, 0.9)),
+        lobe_error_p99=float(np.quantile(lobe.relative, 0.99)),
+        lobe_energy_error=lobe.energy,
+        wide_error_median=float(np.median(wide.relative)),
+        wide_error_p90=float(np.quantile(wide.relative, 0.9)),
+        film_error=solver.albedo.film.error,
+        energy_max=energy_max,
+        nonfinite=int(np.count_nonzero(~np.isfinite(errors))),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Compared:
+    """Relative errors, flat, and the relative difference of the sums."""
+
+    relative: FloatArray
+    energy: float
+
+
+def _compared(truth: FloatArray, got: FloatArray) -> _Compared:
+    seen = truth > _DARK * truth.max()
+    if not seen.any():  # a black surface
+        return _Compared(np.zeros(1), 0.0)
+    relative = np.abs(got[seen] / truth[seen] - 1)
+    return _Compared(relative, float(got[seen].sum() / truth[seen].sum() - 1))
+
+
+def _f_cos(shades: Shades, solver: BsdfSolver, pairs: Pairs) -> FloatArray:
+    return np.asarray(shades.reflected(solver, pairs) * pairs.outgoing[:, 2:])
+
+
+def _incoming(random: np.random.Generator, count: int) -> FloatArray:
+    cosine = random.uniform(np.cos(_STEEPEST), 1, count)
+    return unit_vectors(np.arccos(cosine), random.uniform(-np.pi, np.pi, count))
+
+
+def _wide() -> Pairs:
+    """Outgoing light of a diffuse surface."""
+    random = np.random.default_rng(1)
+    incoming = _incoming(random, _PAIRS)
+    cosine = np.sqrt(random.random(_PAIRS))
+    outgoing = unit_vectors(np.arccos(cosine), random.uniform(-np.pi, np.pi, _PAIRS))
+    return Pairs(np.zeros(_PAIRS, np.int32), incoming, outgoing)
+
+
+def _along_the_lobe(solver: BsdfSolver, shades: Shades) -> Pairs:
+    """Outgoing light in proportion to f cos_o: of GGX's reflections some are kept, by what they count."""
+    random = np.random.default_rng(2)
+    count = _CANDIDATES * _PAIRS
+    incoming = _incoming(random, count)
+    u, turn = random.random(count), random.uniform(-np.pi, np.pi, count)
+    alpha_x, alpha_y = solver.facets.alphas[0]
+    slope = np.sqrt(u / (1 - u))
+    m = np.stack([alpha_x * slope * np.cos(turn), alpha_y * slope * np.sin(turn), np.ones(count)], axis=-1)
+    m /= np.linalg.norm(m, axis=-1, keepdims=True)
+    facing = np.sum(m * incoming, axis=-1)
+    outgoing = 2 * facing[:, None] * m - incoming
+    above = (facing > 0) & (outgoing[:, 2] > 1e-3)
+    pairs = Pairs(np.zeros(int(above.sum()), np.int32), incoming[above], outgoing[above])
+    x, y, z = m[above].T
+    drawn = z / (np.pi * alpha_x * alpha_y * ((x / alpha_x) ** 2 + (y / alpha_y) ** 2 + z**2) ** 2)
+    weight = _f_cos(shades, solver, pairs).mean(axis=-1).clip(min=0) * 4 * facing[above] / drawn
+    if not weight.any():  # a black surface
+        weight = np.ones_like(weight)
+    kept = random.choice(weight.size, _PAIRS, p=weight / weight.sum())
+    return Pairs(pairs.roughness[kept], pairs.incoming[kept], pairs.outgoing[kept])
