@@ -22,6 +22,9 @@ VARIANTS = ("scalar_spectral", "llvm_ad_spectral")
 Bsdf = Any
 """A BSDF plugin of Mitsuba, whose types depend on the variant."""
 
+Mitsuba = Any
+"""Any other value of Mitsuba, likewise."""
+
 _PROBE = "import mitsuba as mi; mi.set_variant({!r}); print(mi.Float(1) + 1)"
 
 
@@ -103,6 +106,73 @@ def _all_at_once(
     interaction.wi = mi.Vector3f(i.T.astype(np.float32))
     values = bsdf.eval(context, interaction, mi.Vector3f(o.T.astype(np.float32)))
     return np.array(values, np.float64).T
+
+
+def spectral_values(
+    bsdf: Bsdf, i: NDArray[np.float64], o: NDArray[np.float64], wavelength_nm: NDArray[np.float64] | None
+) -> NDArray[np.float64]:
+    """Evaluate f cos_o for directions i and o (P, 3) at four wavelengths, or in RGB without any: (P, C)."""
+    import mitsuba as mi
+
+    if mi.variant().startswith("scalar"):
+        assert wavelength_nm is not None
+        return _one_by_one(bsdf, i, o, wavelength_nm)
+    return np.array(bsdf.eval(_context(), _interaction(i, wavelength_nm), _vectors(o)), np.float64).T
+
+
+def sampled(
+    bsdf: Bsdf, i: NDArray[np.float64], wavelength_nm: NDArray[np.float64] | None, seed: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Sample the material: outgoing directions (P, 3), of length 1, and weights f cos_o / density (P, C)."""
+    import mitsuba as mi
+
+    u = np.random.default_rng(seed).random((2, len(i))).astype(np.float32)
+    if mi.variant().startswith("scalar"):
+        assert wavelength_nm is not None
+        return _sampled_one_by_one(bsdf, i, wavelength_nm, u)
+    sample, weight = bsdf.sample(_context(), _interaction(i, wavelength_nm), 0.5, mi.Point2f(u))
+    o = np.array(sample.wo, np.float64).T
+    return o / np.linalg.norm(o, axis=-1, keepdims=True), np.array(weight, np.float64).T
+
+
+def _sampled_one_by_one(
+    bsdf: Bsdf, i: NDArray[np.float64], wavelength_nm: NDArray[np.float64], u: NDArray[np.float32]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    import mitsuba as mi
+
+    interaction = mi.SurfaceInteraction3f()
+    interaction.wavelengths = wavelength_nm.tolist()
+    directions, weights = [], []
+    for wi, point in zip(i.tolist(), u.T.tolist(), strict=True):
+        interaction.wi = wi
+        sample, weight = bsdf.sample(_context(), interaction, 0.5, point)
+        directions.append(np.array(sample.wo, np.float64))
+        weights.append(np.array(weight, np.float64))
+    o = np.stack(directions)
+    return o / np.linalg.norm(o, axis=-1, keepdims=True), np.stack(weights)
+
+
+def _context() -> Mitsuba:
+    import mitsuba as mi
+
+    return mi.BSDFContext()
+
+
+def _interaction(i: NDArray[np.float64], wavelength_nm: NDArray[np.float64] | None) -> Mitsuba:
+    import drjit
+    import mitsuba as mi
+
+    interaction = drjit.zeros(mi.SurfaceInteraction3f, len(i))
+    if wavelength_nm is not None:
+        interaction.wavelengths = mi.UnpolarizedSpectrum(*wavelength_nm.tolist())
+    interaction.wi = _vectors(i)
+    return interaction
+
+
+def _vectors(directions: NDArray[np.float64]) -> Mitsuba:
+    import mitsuba as mi
+
+    return mi.Vector3f(directions.T.astype(np.float32))
 
 
 def _load(**plugin: object) -> Bsdf:

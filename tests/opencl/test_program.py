@@ -64,6 +64,12 @@ FILM_NUMBERS = {
 ROUGH_KERNELS = ("microfacet_area", "albedo_weights", "bsdf", "bsdf_colour")
 
 
+@pytest.mark.parametrize("precision", Precision)
+def test_a_kernel_without_lanes_builds(precision: Precision, device: Device) -> None:
+    """The warp takes a point at a time."""
+    assert kernel_of(device, Build("warp", precision, 1)).function_name == "warp"
+
+
 def ways_to_build(device: Device) -> list[tuple[Precision, int]]:
     """Both precisions, each in every lane width."""
     return [(precision, lanes) for precision in Precision for lanes in lane_widths(device, precision)]
@@ -71,7 +77,10 @@ def ways_to_build(device: Device) -> list[tuple[Precision, int]]:
 
 def test_every_kernel_is_built_here() -> None:
     """A new kernel must be added below."""
-    assert sorted([*FILM_NUMBERS, *ROUGH_KERNELS, "microfacets", "register_width"]) == sources.kernel_names()
+    assert (
+        sorted([*FILM_NUMBERS, *ROUGH_KERNELS, "microfacets", "register_width", "warp"])
+        == sources.kernel_names()
+    )
 
 
 @pytest.mark.parametrize("kernel", FILM_NUMBERS)

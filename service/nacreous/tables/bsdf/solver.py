@@ -27,6 +27,8 @@ FloatArray = NDArray[np.float64]
 SAME_INDEX = 1e-3
 """Difference of the indices of both media below which light passes straight on, all but unrefracted."""
 _LEAST_LOSS = 1e-6
+_MOST_COSINES = 512
+"""Cosines at which a mirror's albedo is integrated; more are interpolated, which is within 1e-5."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,10 +129,13 @@ class BsdfSolver:
         return (lost / (np.pi * of_all))[:, None] * colour[pairs.roughness]
 
     def _lost(self, roughness: NDArray[np.int32], cosine: FloatArray) -> FloatArray:
-        """1 - E_w at each pair's roughness and cosine, (P,)."""
+        """1 - E_w at each pair's roughness and cosine, (P,); of many cosines between those that are few."""
         distinct, place = np.unique(cosine, return_inverse=True)
-        mirror = self.albedo.geometry(self.roughness, distinct, np.zeros(0)).mirror
-        return np.asarray(np.maximum(1 - mirror[roughness, place], 0), np.float64)
+        few = distinct if distinct.size <= _MOST_COSINES else np.linspace(0, 1, _MOST_COSINES) ** 2
+        lost = np.maximum(1 - self.albedo.geometry(self.roughness, few, np.zeros(0)).mirror, 0)
+        if few is not distinct:
+            lost = np.stack([np.interp(np.sqrt(distinct), np.sqrt(few), row) for row in lost])
+        return np.asarray(lost[roughness, place], np.float64)
 
 
 def bsdf_solver(device: Device, spec: Spec) -> BsdfSolver:

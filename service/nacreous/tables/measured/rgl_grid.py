@@ -17,7 +17,7 @@ __all__ = ["LADDERS", "RglGrid", "phi_of", "theta_of", "unit_of_phi", "unit_of_t
 
 FloatArray = NDArray[np.float64]
 
-_GRAZING = 0.75
+_GRAZING = 0.85
 """Exponent of the spacing of theta_i: below 1 nodes are dense at flat angles, where most changes."""
 
 
@@ -78,14 +78,15 @@ _ANISOTROPIC = {"rows": 48, "columns": 64, "facet_azimuths": 256, "facet_tilts":
 
 LADDERS: dict[bool, tuple[RglGrid, ...]] = {
     False: tuple(
-        RglGrid(1, tilts, samples, **_ISOTROPIC) for tilts, samples in ((24, 24), (48, 32), (64, 48))
+        RglGrid(1, tilts, samples, **_ISOTROPIC)
+        for tilts, samples in ((24, 24), (32, 32), (48, 32), (28, 44), (48, 48))
     ),
     True: tuple(
         RglGrid(azimuths, tilts, samples, **_ANISOTROPIC)
-        for azimuths, tilts, samples in ((17, 16, 20), (21, 18, 22), (25, 20, 24), (33, 24, 32))
+        for azimuths, tilts, samples in ((17, 16, 14), (21, 18, 17), (25, 20, 20), (25, 20, 24), (33, 24, 32))
     ),
 }
-"""Grids to choose from, coarse ones first, for isotropic (False) and anisotropic (True) surfaces."""
+"""Grids to choose from, small ones first, for isotropic (False) and anisotropic (True) surfaces."""
 
 
 def theta_of(u: FloatArray) -> FloatArray:
