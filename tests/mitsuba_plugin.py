@@ -39,9 +39,9 @@ def use_variant(variant: str) -> None:
 
 
 def table_file(folder: Path, variant: str, spec: dict[str, Any], name: str = "film") -> Path:
-    """Tabulate a spec in the format that a variant reads, and return the file of R."""
-    suffix = ".spectral.exr" if "spectral" in variant else ".exr"
-    return nacreous.write(nacreous.tabulate(spec), folder / f"{name}{suffix}")[0]
+    """Return the file of R of a spec, in the format that a variant reads; it is written once."""
+    file = folder / f"{name}{'.spectral.exr' if 'spectral' in variant else '.exr'}"
+    return file if file.is_file() else nacreous.write(nacreous.tabulate(spec), file)[0]
 
 
 def film(file: Path, **parameters: object) -> Bsdf:

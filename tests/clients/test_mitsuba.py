@@ -64,11 +64,11 @@ def companion(file: Path) -> Path:
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
-@pytest.mark.parametrize("spec", [CONTRACT_SPEC, UNEVEN_SPEC], ids=["even", "uneven"])
-def test_a_smooth_film_is_the_table(spec: dict[str, object], variant: str, folder: Path) -> None:
+@pytest.mark.parametrize(("name", "spec"), [("film", CONTRACT_SPEC), ("uneven", UNEVEN_SPEC)])
+def test_a_smooth_film_is_the_table(name: str, spec: dict[str, object], variant: str, folder: Path) -> None:
     """R and T at the contract's points are its lookup in NumPy, with linear or explicit axes."""
     use_variant(variant)
-    file = table_file(folder, variant, spec)
+    file = table_file(folder, variant, spec, name)
     for cos_theta, scale in np.maximum(POINTS, GRAZING):
         bsdf = film(file, thickness_scale=float(scale))
         for component, texture in enumerate((file, companion(file))):

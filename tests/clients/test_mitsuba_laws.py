@@ -34,6 +34,12 @@ ROUGHNESSES = [{"alpha": 0.3}, {"alpha_u": 0.15, "alpha_v": 0.5}]
 N_GLASS = 1.5
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of the tables."""
+    return tmp_path_factory.mktemp("laws")
+
+
 def bare_spec(substrate: object) -> dict[str, Any]:
     """Return a substrate in vacuum under a layer of no thickness, sampled finely."""
     nothing = {"material": {"n": 2.0}, "thickness_nm": 0.0}
@@ -67,10 +73,10 @@ def values(bsdf: object, wi: FloatArray, wo: FloatArray, mode: str) -> FloatArra
 
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("roughness", ROUGHNESSES)
-def test_light_and_radiance_are_adjoint(roughness: dict[str, float], variant: str, tmp_path: Path) -> None:
+def test_light_and_radiance_are_adjoint(roughness: dict[str, float], variant: str, folder: Path) -> None:
     """For flux from i to o as for radiance from o to i (Veach 1997, section 5.2), on either side."""
     use_variant(variant)
-    bsdf = film(table_file(tmp_path, variant, CONTRACT_SPEC), thickness_scale=0.9, **roughness)
+    bsdf = film(table_file(folder, variant, CONTRACT_SPEC), thickness_scale=0.9, **roughness)
     for i, o in pairs(variant, seed=5):
         flux = values(bsdf, i, o, "Importance") / np.abs(o[..., 2:])
         radiance = values(bsdf, o, i, "Radiance") / np.abs(i[..., 2:])
@@ -81,11 +87,11 @@ def test_light_and_radiance_are_adjoint(roughness: dict[str, float], variant: st
 @pytest.mark.parametrize("roughness", ROUGHNESSES)
 @pytest.mark.parametrize("cos_theta", [0.9, 0.2, -0.9, -0.3])
 def test_weight_times_density_is_the_value(
-    cos_theta: float, roughness: dict[str, float], variant: str, tmp_path: Path
+    cos_theta: float, roughness: dict[str, float], variant: str, folder: Path
 ) -> None:
     """`sample` returns f |cos θ_o| over the density that `pdf` has for its direction."""
     use_variant(variant)
-    bsdf = film(table_file(tmp_path, variant, CONTRACT_SPEC), thickness_scale=0.9, **roughness)
+    bsdf = film(table_file(folder, variant, CONTRACT_SPEC), thickness_scale=0.9, **roughness)
     for wi, u in sampling(variant, cos_theta):
         sample, weight = bsdf.sample(context(), interaction(wi), *u)
         f, density = bsdf.eval_pdf(context(), interaction(wi), sample.wo)
@@ -110,12 +116,10 @@ def sampling(variant: str, cos_theta: float) -> list[tuple[FloatArray, tuple[Any
 @pytest.mark.parametrize("variant", VECTORISED)
 @pytest.mark.parametrize("roughness", [{}, {"alpha": 0.05}, *ROUGHNESSES])
 @pytest.mark.parametrize("cos_theta", [1.0, 0.5, 0.1, -1.0, -0.5, -0.1])
-def test_no_energy_is_made(
-    cos_theta: float, roughness: dict[str, float], variant: str, tmp_path: Path
-) -> None:
+def test_no_energy_is_made(cos_theta: float, roughness: dict[str, float], variant: str, folder: Path) -> None:
     """R + T = 1 for a smooth film without absorption, from both sides; facets lose some to each other."""
     use_variant(variant)
-    bsdf = film(table_file(tmp_path, variant, CONTRACT_SPEC), thickness_scale=0.9, **roughness)
+    bsdf = film(table_file(folder, variant, CONTRACT_SPEC), thickness_scale=0.9, **roughness)
     ((wi, u),) = sampling(variant, cos_theta)
     albedo = array(bsdf.sample(context("Importance"), interaction(wi), *u)[1]).mean(axis=0)
     assert albedo.max() <= 1 + 2e-2  # the mean of 20,000 weights
@@ -127,10 +131,10 @@ def test_no_energy_is_made(
 
 @pytest.mark.parametrize("variant", ["scalar_spectral", "llvm_ad_spectral"])
 @pytest.mark.parametrize("alphas", [(0.2, 0.2), (0.1, 0.4)])
-def test_bare_silver_is_a_rough_conductor(alphas: tuple[float, float], variant: str, tmp_path: Path) -> None:
+def test_bare_silver_is_a_rough_conductor(alphas: tuple[float, float], variant: str, folder: Path) -> None:
     """`roughconductor` of the same index differs by no more than the table's interpolation."""
     use_variant(variant)
-    file = table_file(tmp_path, variant, bare_spec("main/Ag/Johnson"))
+    file = table_file(folder, variant, bare_spec("main/Ag/Johnson"), "silver")
     ours = film(file, alpha_u=alphas[0], alpha_v=alphas[1])
     wavelength_nm = np.array([400.0, 450.0, 630.0, 640.0, 780.0])
     theirs = conductor(
@@ -146,12 +150,12 @@ def test_bare_silver_is_a_rough_conductor(alphas: tuple[float, float], variant: 
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("mode", ["Radiance", "Importance"])
 @pytest.mark.parametrize("alpha", [0.1, 0.4])
-def test_bare_glass_is_a_rough_dielectric(alpha: float, mode: str, variant: str, tmp_path: Path) -> None:
+def test_bare_glass_is_a_rough_dielectric(alpha: float, mode: str, variant: str, folder: Path) -> None:
     """`roughdielectric` differs by no more than the table's interpolation: R and T, from both sides."""
     use_variant(variant)
     import mitsuba as mi
 
-    file = table_file(tmp_path, variant, bare_spec({"n": N_GLASS}))
+    file = table_file(folder, variant, bare_spec({"n": N_GLASS}), "glass")
     glass = {
         "type": "roughdielectric",
         "distribution": "ggx",
@@ -183,12 +187,12 @@ def glass_share(i: FloatArray, o: FloatArray) -> FloatArray:
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("cos_theta", [1.0, 0.7, 0.2, -0.2, -0.8, -1.0])
 @pytest.mark.parametrize("mode", ["Radiance", "Importance"])
-def test_bare_glass_is_a_smooth_dielectric(mode: str, cos_theta: float, variant: str, tmp_path: Path) -> None:
+def test_bare_glass_is_a_smooth_dielectric(mode: str, cos_theta: float, variant: str, folder: Path) -> None:
     """`dielectric` reflects and refracts to the same directions, as much, beyond the critical angle too."""
     use_variant(variant)
     import mitsuba as mi
 
-    file = table_file(tmp_path, variant, bare_spec({"n": N_GLASS}))
+    file = table_file(folder, variant, bare_spec({"n": N_GLASS}), "glass")
     glass = mi.load_dict({"type": "dielectric", "ext_ior": 1.0, "int_ior": N_GLASS})
     for component in (0, 1):
         arguments = context(mode, component), interaction(direction(cos_theta)), 0.5, [0.5, 0.5]

@@ -1,6 +1,7 @@
 """The BSDF plugin for Mitsuba in pictures, rendered: pixels are the table, and the example runs."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import nacreous
 from lut_contract import CONTRACT_SPEC, LookupTexture
 from mitsuba_plugin import CLIENT, FloatArray, film, table_file, use_variant
 from mitsuba_surface import variant_fault
@@ -124,6 +126,37 @@ def test_the_example_renders_spheres(variant: str, tmp_path: Path) -> None:
     grey = pixels.mean(axis=-1, keepdims=True)
     saturation = np.abs(pixels - grey).max(axis=-1) / grey[..., 0]
     assert (saturation > 0.1).mean() > 0.05
+
+
+def readme_block(language: str) -> str:
+    """Return the first block of the README in a language."""
+    text = (CLIENT / "README.md").read_text(encoding="utf-8")
+    return re.search(rf"```{language}\n(.*?)```", text, re.DOTALL)[1]
+
+
+def test_the_readme_s_python_runs(tmp_path: Path) -> None:
+    """Its first example, in a process of its own, after the command above it."""
+    if fault := variant_fault("llvm_ad_spectral"):
+        pytest.skip(fault)
+    nacreous.write(
+        nacreous.tabulate(nacreous.preset("anodised-titanium")), tmp_path / "anodised-titanium.spectral.exr"
+    )
+    environment = os.environ | {"PYTHONPATH": str(CLIENT)}
+    subprocess.run([sys.executable, "-c", readme_block("python")], check=True, cwd=tmp_path, env=environment)
+
+
+def test_the_readme_s_xml_loads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its first example, with a texture of the thickness beside it."""
+    use_variant("llvm_ad_spectral")
+    import mitsuba as mi
+
+    nacreous.write(
+        nacreous.tabulate(nacreous.preset("anodised-titanium")), tmp_path / "anodised-titanium.spectral.exr"
+    )
+    mi.Bitmap(np.full((2, 2, 1), 0.4, np.float32)).write(str(tmp_path / "thickness.exr"))
+    monkeypatch.chdir(tmp_path)
+    bsdf = mi.load_string(readme_block("xml").replace("<bsdf", '<bsdf version="3.0.0"', 1))
+    assert "thickness_scale.data" in mi.traverse(bsdf)
 
 
 def read_exr(file: Path) -> FloatArray:
