@@ -257,6 +257,8 @@ class Film:
         if self.transmits:
             self.transmittance = read_table(LookupFile(companion, "T"))
         self.eta = _relative_index(props, file) if self.transmits else 1.0
+        for name in ("int_ior", "ext_ior"):
+            props.mark_queried(name)  # an opaque film has no use for them, and a scene may keep them
         self.textures = {"thickness_scale": props.get_unbounded_texture("thickness_scale", 1.0)}
         for name in ("specular_reflectance", "specular_transmittance"):
             if name in props:

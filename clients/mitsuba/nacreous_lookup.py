@@ -4,7 +4,8 @@ Texels are raw: nothing converts their colours. The first and the last of an axi
 
     u = (x (N - 1) + 0.5) / N        x = 0 to 1 along an axis of N texels
 
-Rows count from the top, as in Mitsuba's textures, so that no v is turned over. Clamped at the edges.
+Rows count from the top, as in Mitsuba's textures, so that no v is turned over. Clamped at the edges. Dr.Jit
+filters them, and not the texture units of a GPU, which know 256 places between two texels.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ class ColourTable:
                 "write film.exr with --format exr and colour.space = Rec.709"
             )
         texels = np.stack([file.channels[name] for name in "RGB"], axis=-1)
-        self.texture = mi.Texture2f(mi.TensorXf(texels))
+        self.texture = mi.Texture2f(mi.TensorXf(texels), use_accel=False)
         self.cos_theta, self.thickness_scale = file.axis("x"), file.axis("y")
 
     def at(
@@ -95,7 +96,7 @@ class SpectralTable:
                 f"{', '.join(file.channels)}; write film.spectral.exr with --format spectral-exr"
             )
         texels = np.stack([file.channels[name] for _, name in spectrum], axis=-1)
-        self.texture = mi.Texture3f(mi.TensorXf(texels[..., None]))
+        self.texture = mi.Texture3f(mi.TensorXf(texels[..., None]), use_accel=False)
         self.wavelength_nm = _sampled_axis(np.array([nm for nm, _ in spectrum]))
         self.cos_theta, self.thickness_scale = file.axis("x"), file.axis("y")
 
@@ -129,7 +130,7 @@ class ExplicitAxis:
     def __init__(self, values: np.ndarray) -> None:
         self.count = len(values)
         texels = mi.TensorXf(values.astype(np.float32)[:, None])
-        self.values = mi.Texture1f(texels, filter_mode=dr.FilterMode.Nearest)
+        self.values = mi.Texture1f(texels, use_accel=False, filter_mode=dr.FilterMode.Nearest)
 
     def value(self, index: mi.UInt32) -> mi.Float:
         """Return one of them."""

@@ -135,7 +135,7 @@ def test_without_a_file_of_t_a_film_is_opaque(folder: Path) -> None:
     (folder / "opaque").mkdir()
     file = table_file(folder / "opaque", "llvm_ad_rgb", CONTRACT_SPEC)
     companion(file).unlink()
-    bsdf = film(file)
+    bsdf = film(file, int_ior=1.5)  # as in the scene that had the file of T
     assert bsdf.component_count() == 1
     above, below = interaction(direction(0.7)), interaction(direction(-0.7))
     front, back = (array(bsdf.sample(context(), si, 0.5, [0.5, 0.5])[1]) for si in (above, below))
