@@ -76,6 +76,22 @@ def test_kulla_conty_adds_what_the_albedo_lacks(device: Device) -> None:
     np.testing.assert_allclose(added, added[:1] * np.ones((7, 1)), rtol=1e-4)
 
 
+@pytest.mark.parametrize("alpha", [0.1, 0.9])
+def test_kulla_conty_between_many_cosines(alpha: float, device: Device) -> None:
+    """A thousand directions share a table of lost light; ten at a time have their own: within 1e-4 of f_r."""
+    surface = {
+        "distribution": "ggx",
+        "masking": "v-cavity",
+        "alpha_x": alpha,
+        "multiple_scattering": "kulla-conty",
+    }
+    solver = solver_of(device, surface)
+    i, o = random_directions(1000, 11), random_directions(1000, 12)
+    together = solver.reflection(0, i, o, NM)[:50]
+    parts = [solver.reflection(0, i[at : at + 10], o[at : at + 10], NM) for at in range(0, 50, 10)]
+    np.testing.assert_allclose(together, np.concatenate(parts), rtol=1e-4, atol=1e-6)
+
+
 def test_each_wavelength_is_refracted_by_its_own_index(device: Device) -> None:
     """Snell at n, where alpha is 0.005: the lobe's brightest direction turns with the index of BK7.
 

@@ -12,8 +12,9 @@ from nacreous.opencl.bsdf import Pairs
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.tables.bsdf import bsdf_solver
-from nacreous.tables.measured.rgl import RglTable, tabulated
+from nacreous.tables.measured.rgl import rgl_table
 from nacreous.tables.measured.rgl_grid import RglGrid, phi_of, theta_of, unit_of_phi, unit_of_theta
+from nacreous.tables.measured.rgl_table import RglTable
 from nacreous.tables.measured.surface import Spectra
 
 WAVELENGTH_NM = np.array([450.0, 550.0, 650.0])
@@ -25,7 +26,7 @@ GRIDS = {"ggx": SMALL, "ashikhmin-shirley": SMALL, "diffuse": SMALL, "anisotropi
 def small_table(surface: str, device: Device) -> RglTable:
     """Return the table of a surface on a small grid."""
     solver = bsdf_solver(device, measured_spec(surface))
-    return tabulated(solver, GRIDS[surface], Spectra(WAVELENGTH_NM), None)
+    return rgl_table(solver, GRIDS[surface], Spectra(WAVELENGTH_NM), None)
 
 
 def pairs_at_slices(table: RglTable, surface: str) -> Pairs:
@@ -117,7 +118,7 @@ def test_too_large_a_table_is_refused(device: Device, monkeypatch: pytest.Monkey
     solver = bsdf_solver(device, measured_spec("ggx"))
     monkeypatch.setenv("NACREOUS_BYTE_BUDGET", "100000")
     with pytest.raises(BudgetError, match="measured bsdf of 8 x 256 x 3 numbers"):
-        tabulated(solver, SMALL, Spectra(WAVELENGTH_NM), None)
+        rgl_table(solver, SMALL, Spectra(WAVELENGTH_NM), None)
 
 
 def test_light_from_any_azimuth_is_the_same_of_an_isotropic_surface(device: Device) -> None:
