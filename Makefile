@@ -30,8 +30,8 @@ run: $(VENV)/.installed
 	@echo 'Picture of it:'
 	@$(BIN)/nacreous preview $(PRESET) -o out/$(subst /,-,$(PRESET)).png
 
-test: $(VENV)/.group-test $(VENV)/.llvm
-	$(BIN)/python -m pytest
+test: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(VENV)/.node
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile
 
 check: $(VENV)/.group-check
 	$(BIN)/ruff check
@@ -47,7 +47,7 @@ bench: $(BENCH_VENV)/.group-$(BENCH_GROUP) $(BENCH_VENV)/.llvm
 	PYTHONPATH=tests $(BENCH_VENV)/bin/python -m bench
 
 clean:
-	rm -rf $(VENV) $(BENCH_VENV) out build dist .hypothesis .*_cache
+	rm -rf $(VENV) $(BENCH_VENV) out build dist .hypothesis .*_cache tests/node/node_modules
 
 # ---- environments: a stamp for each step, renewed when pyproject.toml changes ------------------------------
 
@@ -71,6 +71,21 @@ $(VENV)/.made $(BENCH_VENV)/.made:
 $(VENV)/.llvm $(BENCH_VENV)/.llvm: %/.llvm: %/.made
 	@if $(call debian,$(PYTHON) -c 'import ctypes; ctypes.CDLL("libLLVM.so.19.1")',libllvm19); then touch $@; \
 	    else echo 'Mitsuba needs LLVM for its vectorised variants: install the package libllvm19' >&2; fi
+
+# What the tests of files and clients run in. Where something cannot be installed, the tests that need it say so.
+$(VENV)/.drawing: $(VENV)/.made
+	@if $(call debian,command -v xvfb-run && ls /usr/lib/*/dri/swrast_dri.so, \
+	        xvfb xauth libgl1 libgl1-mesa-dri libglx-mesa0 libegl1); then touch $@; \
+	    else echo 'MaterialX draws without a screen with the packages xvfb, libgl1 and libgl1-mesa-dri' >&2; fi
+
+$(VENV)/.web: $(VENV)/.made
+	@if $(call debian,command -v chromium && command -v glslangValidator && command -v spirv-cross, \
+	        chromium glslang-tools spirv-cross); then touch $@; \
+	    else echo 'The web and engine clients need the packages chromium, glslang-tools and spirv-cross' >&2; fi
+
+$(VENV)/.node: $(VENV)/.made tests/node/package-lock.json
+	@if command -v npm >/dev/null && npm ci --silent --no-audit --no-fund --prefix tests/node >/dev/null; \
+	    then touch $@; else echo 'glTF files are validated with Node.js and npm: install nodejs and npm' >&2; fi
 
 $(VENV)/.installed $(BENCH_VENV)/.installed: %/.installed: %/.made pyproject.toml
 	@echo 'Installing Nacreous into $* ...'

@@ -8,7 +8,8 @@ from PIL import Image
 
 from analytic_tables import known
 from nacreous.formats import png
-from nacreous.formats.srgb import encoded, out_of_gamut, rec709
+from nacreous.formats.srgb import encoded, out_of_gamut
+from nacreous.tables.rec709 import rec709
 from nacreous.tables.table import Table
 
 

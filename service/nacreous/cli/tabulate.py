@@ -58,9 +58,12 @@ def _computed(spec: "Spec", formats: "Sequence[Format]") -> "Iterator[tuple[Tabl
 
 
 def _written(table: "Table", formats: "Sequence[Format]", stem: Path) -> "Iterator[tuple[Path, Format]]":
+    """Write the formats, and yield each file once: the texture of a MaterialX document is an EXR as well."""
+    told: set[Path] = set()
     for chosen in formats:
-        for path in chosen.write(table, stem.with_name(stem.name + chosen.suffix)):
-            yield path, chosen
+        files = chosen.write(table, stem.with_name(stem.name + chosen.suffix))
+        yield from ((path, chosen) for path in files if path not in told)
+        told.update(files)
 
 
 def _record(table: "Table", path: Path, written_as: "Format", seconds: float) -> str:

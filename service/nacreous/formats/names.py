@@ -16,3 +16,6 @@ class FormatName(StrEnum):
     PNG = "png"
     RGL = "rgl"
     RGL_RGB = "rgl-rgb"
+    ZARR = "zarr"
+    MATERIALX = "materialx"
+    GLTF = "gltf"

@@ -4,16 +4,13 @@ Names, units and meanings follow the CF conventions' attributes ``units`` and ``
 global attributes. Arrays are compressed without loss.
 """
 
-import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from nacreous.errors import FileFormatError, reason
 from nacreous.formats.atomic import replacing
-from nacreous.formats.contents import CHECKSUM, PREFIX, Contents, checksum, provenance_of
-from nacreous.tables.digest import array_bytes
+from nacreous.formats.contents import CHECKSUM, Contents
+from nacreous.formats.dataset import dataset_checksum, dataset_contents
 from nacreous.tables.table import Table
 
 if TYPE_CHECKING:
@@ -29,7 +26,7 @@ def write(table: Table, path: Path) -> tuple[Path, ...]:
     # In memory first: the HDF5 library ends the process where a disk is full.
     with replacing(path) as (temporary,):
         dataset = table.to_xarray()
-        temporary.write_bytes(_encoded(dataset.assign_attrs({CHECKSUM: _checksum(dataset)})))
+        temporary.write_bytes(_encoded(dataset.assign_attrs({CHECKSUM: dataset_checksum(dataset)})))
     return (path,)
 
 
@@ -40,20 +37,7 @@ def _encoded(dataset: "xarray.Dataset") -> memoryview:
 
 def read(path: Path) -> Contents:
     """Return all arrays and the provenance; raises `FileFormatError`."""
-    dataset = _load(path)
-    texts = [(str(key), value) for key, value in dataset.attrs.items()]
-    return Contents(_arrays(dataset), provenance_of(texts), _checksum(dataset))
-
-
-def _arrays(dataset: "xarray.Dataset") -> dict[str, NDArray[Any]]:
-    return {str(name): array.to_numpy() for name, array in dataset.variables.items()}
-
-
-def _checksum(dataset: "xarray.Dataset") -> str:
-    """Return the checksum, which is over dimensions, units and meanings as well."""
-    meanings = {str(name): [array.dims, array.attrs] for name, array in dataset.variables.items()}
-    facts = {**dataset.attrs, f"{PREFIX}meanings": json.dumps(meanings, sort_keys=True, default=str)}
-    return checksum(((str(key), value) for key, value in facts.items()), array_bytes(_arrays(dataset)))
+    return dataset_contents(_load(path))
 
 
 def _load(path: Path) -> "xarray.Dataset":

@@ -16,8 +16,9 @@ from nacreous.errors import FileFormatError
 from nacreous.formats.atomic import replacing
 from nacreous.formats.contents import CHECKSUM, PREFIX, Contents, checksum, provenance_of
 from nacreous.formats.lookup import coloured_names, colours, lookup_attributes, lookup_files
-from nacreous.formats.srgb import encoded, out_of_gamut, rec709
+from nacreous.formats.srgb import encoded, out_of_gamut
 from nacreous.tables.digest import array_bytes
+from nacreous.tables.rec709 import rec709
 from nacreous.tables.table import Table
 
 __all__ = ["SUFFIX", "read", "write"]

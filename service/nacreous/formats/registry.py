@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from nacreous.errors import SpecError
-from nacreous.formats import csv, exr, netcdf, npz, png, rgl, spectral_exr
+from nacreous.formats import csv, exr, gltf, materialx, netcdf, npz, png, rgl, spectral_exr, zarr
 from nacreous.formats.atlas import LAYOUTS
 from nacreous.formats.contents import Contents
 from nacreous.formats.names import FormatName
@@ -168,6 +168,40 @@ _ALL = (
         quantities=_BSDF,
         check=rgl.check_colours,
         sampling=Sampling.RGL_COLOURS,
+    ),
+    Format(
+        FormatName.ZARR,
+        zarr.SUFFIX,
+        _BOTH,
+        _SPECTRUM,
+        "application/zip",
+        "the table with units as a zipped Zarr 3 group, for xarray and dask",
+        zarr.write,
+        zarr.read,
+    ),
+    Format(
+        FormatName.MATERIALX,
+        materialx.SUFFIX,
+        _COLOUR,
+        _COLOUR,
+        "application/mtlx+xml",
+        "a material for Maya, Houdini and USD that reads the lookup texture beside it",
+        materialx.write,
+        materialx.read,
+        quantities=materialx.QUANTITIES,
+        check=materialx.check,
+    ),
+    Format(
+        FormatName.GLTF,
+        gltf.SUFFIX,
+        _COLOUR,
+        _COLOUR,
+        "model/gltf+json",
+        "the nearest film that glTF and three.js can show, and how far off it is",
+        gltf.write,
+        gltf.read,
+        quantities=gltf.QUANTITIES,
+        check=gltf.check,
     ),
 )
 

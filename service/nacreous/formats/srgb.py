@@ -3,10 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from nacreous.optics.colour import colour_system
-from nacreous.tables.spec import ColourSpec
-
-__all__ = ["encoded", "out_of_gamut", "rec709"]
+__all__ = ["encoded", "out_of_gamut"]
 
 
 def encoded(linear: NDArray[np.floating]) -> NDArray[np.uint8]:
@@ -21,14 +18,3 @@ def out_of_gamut(linear: NDArray[np.floating]) -> float:
     step = 1 / 255 / 12.92  # the smallest step of 8-bit sRGB, at black
     outside = (linear < -step) | (linear > 1 + step)
     return float(outside.any(axis=-1).mean())
-
-
-def rec709(colours: NDArray[np.floating], colour: ColourSpec) -> NDArray[np.floating]:
-    """Return table colours, shape (…, 3), in linear Rec.709; those of a table in Rec.709 are as they were."""
-    if colour.space == "Rec.709":
-        return colours
-    table, screen = (
-        colour_system(colour.illuminant, colour.observer, space) for space in (colour.space, "Rec.709")
-    )
-    to_screen = screen.from_xyz @ np.linalg.inv(table.from_xyz)  # both start at the illuminant's XYZ
-    return np.asarray(colours @ to_screen.T)

@@ -118,9 +118,13 @@ def _is_axis(got: NDArray[np.float64], expected: NDArray[np.float64], *, refined
 
 
 def _check_picture(contents: Contents, spec: Spec) -> Iterator[str]:
-    """Compare what a picture says of itself with what its spec makes of it; arrays have axes of their own."""
+    """Compare what a picture says of itself with what its spec makes of it.
+
+    Arrays have axes of their own, and a model that was fitted to the table has none.
+    """
     layout = LAYOUTS[spec.table.quantity]
-    if layout.x in contents.arrays or contents.sampling is not Sampling.AXES:
+    modelled = "model" in contents.provenance or contents.sampling is not Sampling.AXES
+    if layout.x in contents.arrays or modelled:
         return
     wanted = atlas_of(spec.table.quantity, spec_axes(spec)).described()
     yield from _check_promised(contents, ("quantity", *wanted, *colour_facts(spec.colour)))

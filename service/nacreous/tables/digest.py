@@ -30,7 +30,8 @@ def array_bytes(arrays: Mapping[str, NDArray[Any]]) -> Iterator[bytes]:
             yield _json([name, stored.dtype.str, array.shape])
             yield stored.tobytes()
         else:
-            yield _json([name, "text", array.shape, array.astype(str).ravel().tolist()])
+            text = array if array.dtype.kind == "T" else array.astype(str)  # NumPy casts no "T" to it
+            yield _json([name, "text", array.shape, text.ravel().tolist()])
 
 
 def _json(value: object) -> bytes:

@@ -1,0 +1,1 @@
+"""Simpler models fitted to a film: one target, and a module a model."""
