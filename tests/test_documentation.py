@@ -16,7 +16,9 @@ import nacreous
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted(
-    [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), ROOT / "kernels/README.md", ROOT / "clients/README.md"]
+    page
+    for pages in ("*.md", "docs/*.md", "kernels/*.md", "clients/*.md", "clients/*/*.md")
+    for page in ROOT.glob(pages)
 )
 NOT_RUN = "<!-- not run:"
 """Stands, with a reason, in the line above a block that is shown but not run."""
@@ -73,7 +75,9 @@ def _run(command: list[str], folder: Path, path: str) -> None:
 RUNNERS = {"sh": run_shell, "python": run_python, "toml": run_toml}
 
 
-@pytest.mark.parametrize("page", [p for p in PAGES if runnable_blocks(p)], ids=lambda page: page.name)
+@pytest.mark.parametrize(
+    "page", [p for p in PAGES if runnable_blocks(p)], ids=lambda page: str(page.relative_to(ROOT))
+)
 def test_the_blocks_of_a_page_run_in_order(page: Path, tmp_path: Path) -> None:
     """A reader may type what a page shows, from its top to its bottom, in one folder."""
     for block in runnable_blocks(page):
