@@ -8,9 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
+from nacreous.opencl.precision import Precision
+from nacreous.opencl.register_width import lane_width
+
 ITEMS, TURNS = 4096, 20_000
-FLOP_PER_TURN = 8 * 16 * 2
-"""Eight chains of 16 lanes, a multiplication and an addition each."""
+CHAINS = 8
+"""Independent multiply-adds of as many lanes as a register has."""
 
 COPIED_BYTES = 256 * 2**20
 """Far more than any cache holds."""
@@ -33,7 +36,8 @@ def measure_roofline(runs: int = 5) -> Roofline:
     device = cl.get_platforms()[0].get_devices()[0]
     context = cl.Context([device])
     queue = cl.CommandQueue(context)
-    program = cl.Program(context, Path(__file__).with_suffix(".cl").read_text()).build()
+    lanes = lane_width(device, Precision.SINGLE)
+    program = cl.Program(context, Path(__file__).with_suffix(".cl").read_text()).build([f"-DLANES={lanes}"])
     out, source, target = (
         cl.Buffer(context, cl.mem_flags.READ_WRITE, size) for size in (4 * ITEMS, COPIED_BYTES, COPIED_BYTES)
     )
@@ -48,7 +52,7 @@ def measure_roofline(runs: int = 5) -> Roofline:
 
     return Roofline(
         device=device.name.strip(),
-        flop_per_second=ITEMS * TURNS * FLOP_PER_TURN / _median_seconds(run_multiply_add, runs),
+        flop_per_second=ITEMS * TURNS * CHAINS * lanes * 2 / _median_seconds(run_multiply_add, runs),
         copied_bytes_per_second=2 * COPIED_BYTES / _median_seconds(run_copy, runs),
     )
 
