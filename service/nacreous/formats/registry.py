@@ -11,7 +11,21 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from nacreous.errors import SpecError
-from nacreous.formats import csv, exr, gltf, materialx, netcdf, npz, png, rgl, spectral_exr, zarr
+from nacreous.formats import (
+    csv,
+    exr,
+    gltf,
+    materialx,
+    mbsdf,
+    merl,
+    mueller,
+    netcdf,
+    npz,
+    png,
+    rgl,
+    spectral_exr,
+    zarr,
+)
 from nacreous.formats.atlas import LAYOUTS
 from nacreous.formats.contents import Contents
 from nacreous.formats.names import FormatName
@@ -168,6 +182,45 @@ _ALL = (
         quantities=_BSDF,
         check=rgl.check_colours,
         sampling=Sampling.RGL_COLOURS,
+    ),
+    Format(
+        FormatName.MERL,
+        merl.SUFFIX,
+        _NOTHING,
+        _NOTHING,
+        "application/octet-stream",
+        "isotropic bsdf in RGB as the MERL database has it, reflection alone",
+        merl.write,
+        merl.read,
+        quantities=_BSDF,
+        check=merl.check,
+        sampling=Sampling.MERL,
+    ),
+    Format(
+        FormatName.MBSDF,
+        mbsdf.SUFFIX,
+        _NOTHING,
+        _NOTHING,
+        "application/octet-stream",
+        "isotropic bsdf in RGB for hosts of MDL, transmission included",
+        mbsdf.write,
+        mbsdf.read,
+        quantities=_BSDF,
+        check=mbsdf.check,
+        sampling=Sampling.MBSDF,
+    ),
+    Format(
+        FormatName.MUELLER,
+        mueller.SUFFIX,
+        _NOTHING,
+        _NOTHING,
+        "application/octet-stream",
+        "Mueller matrices at five wavelengths for Mitsuba 3, reflection alone",
+        mueller.write,
+        mueller.read,
+        quantities=_BSDF,
+        check=mueller.check,
+        sampling=Sampling.MUELLER,
     ),
     Format(
         FormatName.ZARR,

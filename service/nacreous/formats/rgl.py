@@ -33,14 +33,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nacreous.errors import SpecError
 from nacreous.formats.contents import Contents
 from nacreous.formats.lookup import colour_facts, required
 from nacreous.formats.tensor_file import read_tensors, text, write_tensors
-from nacreous.optics.surface import alphas_at
-from nacreous.tables.measured.surface import check_one_roughness, check_opaque
+from nacreous.tables.measured.surface import check_least_alpha, check_one_roughness, check_opaque, check_rgb
 from nacreous.tables.sampling import Sampling
-from nacreous.tables.spec import Spec, roughness_values, surface_of
+from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 
 __all__ = [
@@ -56,6 +54,8 @@ __all__ = [
 
 SUFFIX, COLOUR_SUFFIX = ".bsdf", ".rgb.bsdf"
 LEAST_ALPHA = 0.02
+NARROW = 'take quantity = "fresnel" as exr, and the renderer\'s own microfacets'
+"""What to do about a lobe that no grid of directions holds."""
 _FACETS = ("ndf", "sigma", "vndf", "luminance")
 
 
@@ -110,15 +110,10 @@ def check(spec: Spec) -> None:
 def check_colours(spec: Spec) -> None:
     """Refuse a spec whose meaning the file would lose, or whose colours a renderer would take for Rec.709."""
     _check(spec, "rgl-rgb")
-    if spec.colour.space == "XYZ":
-        raise SpecError("colour.space", "a space of red, green and blue for rgl-rgb", '"XYZ"')
+    check_rgb(spec, "rgl-rgb")
 
 
 def _check(spec: Spec, name: str) -> None:
     check_one_roughness(spec, name)
     check_opaque(spec, name, "mbsdf")
-    least = float(alphas_at(surface_of(spec), roughness_values(spec)).min())
-    if least < LEAST_ALPHA:
-        expected = f"an alpha of at least {LEAST_ALPHA:g} for {name}, whose grid is wider than such a lobe"
-        remedy = 'take quantity = "fresnel" as exr, and the renderer\'s own microfacets'
-        raise SpecError("surface.alpha_x", expected, f"{least:.4g}", remedy)
+    check_least_alpha(spec, name, LEAST_ALPHA, NARROW)

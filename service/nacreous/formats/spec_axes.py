@@ -20,6 +20,10 @@ AXES = frozenset(
         "phi",
         "wavelength_nm",
         "channel",
+        "theta_h",
+        "theta_d",
+        "phi_d",
+        "wvls",
     }
 )
 """Arrays of a file that are no quantities."""

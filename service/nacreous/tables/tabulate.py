@@ -13,6 +13,9 @@ from nacreous.tables.bsdf.table import compute_bsdf
 from nacreous.tables.computed import Computed, wanted_parts
 from nacreous.tables.fresnel.table import compute_fresnel
 from nacreous.tables.identity import table_id
+from nacreous.tables.measured.mbsdf import compute_mbsdf
+from nacreous.tables.measured.merl import compute_merl
+from nacreous.tables.measured.mueller import compute_mueller
 from nacreous.tables.measured.rgl import compute_rgl_colours, compute_rgl_spectra
 from nacreous.tables.sampling import Sampling
 from nacreous.tables.spec import Spec
@@ -25,7 +28,13 @@ _QUANTITIES: Mapping[str, Callable[[Device, Spec, frozenset[Part], Observer | No
 )
 
 _MEASURED: Mapping[Sampling, Callable[[Device, Spec, Observer | None], Computed]] = MappingProxyType(
-    {Sampling.RGL_SPECTRA: compute_rgl_spectra, Sampling.RGL_COLOURS: compute_rgl_colours}
+    {
+        Sampling.RGL_SPECTRA: compute_rgl_spectra,
+        Sampling.RGL_COLOURS: compute_rgl_colours,
+        Sampling.MERL: compute_merl,
+        Sampling.MBSDF: compute_mbsdf,
+        Sampling.MUELLER: compute_mueller,
+    }
 )
 """What is sampled where readers of measured materials want it: a bsdf each."""
 

@@ -30,8 +30,7 @@ from nacreous.opencl.warp import warped
 from nacreous.optics.square_density import SquareDensities, bilinear
 from nacreous.tables.albedo.solver import check_albedo
 from nacreous.tables.bsdf.solver import BsdfSolver, bsdf_solver
-from nacreous.tables.computed import Computed, axis, colouring_of, grid_of, wanted_parts
-from nacreous.tables.facet_film import on_facets
+from nacreous.tables.computed import Computed, axis, grid_of
 from nacreous.tables.measured.certificate import MeasuredCertificate, certify
 from nacreous.tables.measured.rgl_grid import (
     LADDERS,
@@ -49,9 +48,9 @@ from nacreous.tables.measured.rgl_warp import (
     reflected_pairs,
     warp_densities,
 )
-from nacreous.tables.measured.surface import Colours, Shades, Spectra
+from nacreous.tables.measured.surface import Shades, Spectra, colours_of
 from nacreous.tables.spec import Spec
-from nacreous.tables.table import Part, Variable
+from nacreous.tables.table import Variable
 
 __all__ = ["compute_rgl_colours", "compute_rgl_spectra", "rgl_table"]
 
@@ -81,12 +80,10 @@ def compute_rgl_spectra(device: Device, spec: Spec, observer: Observer | None) -
 
 def compute_rgl_colours(device: Device, spec: Spec, observer: Observer | None) -> Computed:
     """Compute the table in linear colours; raises what `tabulate_table` raises."""
-    grid = grid_of(spec)
-    wanted_parts({Part.COLOUR}, grid.wavelength_nm)
-    colouring = colouring_of(spec, bsdf_solver(device, spec).albedo.film.solver, on_facets(grid))
-    assert colouring is not None  # noqa: S101 - `wanted_parts` has refused a spec without colour
-    axes = axis("channel", np.array(colouring.system.channels), "", "component of the linear colour")
-    return _computed(device, spec, "rgb", axes, Colours(colouring), observer)
+    shades = colours_of(spec, bsdf_solver(device, spec))
+    channels = np.array(shades.colouring.system.channels)
+    axes = axis("channel", channels, "", "component of the linear colour")
+    return _computed(device, spec, "rgb", axes, shades, observer)
 
 
 def _computed(

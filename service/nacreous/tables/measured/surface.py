@@ -10,19 +10,26 @@ from nacreous.errors import SpecError
 from nacreous.opencl.bsdf import Pairs
 from nacreous.opencl.film_colour import Side
 from nacreous.optics.stack import sample_stack
+from nacreous.optics.surface import alphas_at
 from nacreous.tables.axes import wavelength_values_nm
 from nacreous.tables.bsdf.solver import BsdfSolver
 from nacreous.tables.colour import Colouring
+from nacreous.tables.computed import colouring_of, grid_of, wanted_parts
+from nacreous.tables.facet_film import on_facets
 from nacreous.tables.solver import TRANSMITTING_K
 from nacreous.tables.spec import Spec, roughness_values, surface_of
+from nacreous.tables.table import Part
 
 __all__ = [
     "Colours",
     "Shades",
     "Spectra",
     "check_isotropic",
+    "check_least_alpha",
     "check_one_roughness",
     "check_opaque",
+    "check_rgb",
+    "colours_of",
 ]
 
 FloatArray = NDArray[np.float64]
@@ -103,6 +110,15 @@ class Colours:
         return values
 
 
+def colours_of(spec: Spec, solver: BsdfSolver) -> Colours:
+    """Settle how the colours of a surface are integrated; raises `SpecError` where it has none."""
+    grid = grid_of(spec)
+    wanted_parts({Part.COLOUR}, grid.wavelength_nm)
+    colouring = colouring_of(spec, solver.albedo.film.solver, on_facets(grid))
+    assert colouring is not None  # noqa: S101 - `wanted_parts` has refused a spec without colour
+    return Colours(colouring)
+
+
 def check_one_roughness(spec: Spec, format_name: str) -> None:
     """Refuse a spec of several roughnesses: the file is of one surface."""
     roughness = roughness_values(spec)
@@ -132,3 +148,18 @@ def check_isotropic(spec: Spec, format_name: str, alternative: str) -> None:
         expected = f"the same as alpha_x: a file of format {format_name} is of an isotropic surface"
         got = f"alpha_x / alpha_y = {surface.ratio:.4g}"
         raise SpecError("surface.alpha_y", expected, got, f"take {alternative}")
+
+
+def check_least_alpha(spec: Spec, format_name: str, least: float, remedy: str) -> None:
+    """Refuse a lobe that is narrower than the grid of the file."""
+    alpha = float(alphas_at(surface_of(spec), roughness_values(spec)).min())
+    if alpha < least:
+        expected = f"an alpha of at least {least:g} for {format_name}, whose grid is wider than such a lobe"
+        raise SpecError("surface.alpha_x", expected, f"{alpha:.4g}", remedy)
+
+
+def check_rgb(spec: Spec, format_name: str) -> None:
+    """Refuse colours that a reader would take for red, green and blue."""
+    if spec.colour.space == "XYZ":
+        expected = f"a space of red, green and blue for {format_name}"
+        raise SpecError("colour.space", expected, '"XYZ"', 'take "Rec.709", which its readers expect')

@@ -1,0 +1,131 @@
+"""A bsdf on the grid of MDL's measured BSDF: both polar angles and the azimuth between, evenly divided.
+
+The 90 degrees of either angle are N bins and the 180 between the azimuths 2 N; values lie in the bins'
+middles, where a volume texture has its texels, and readers are linear between them. Half a turn is enough,
+because an isotropic surface is its own mirror image. A lobe lies along the diagonal theta_i = theta_o, and is
+twice as wide in theta_o as its facets' alpha: at its top the error is about (pi / (4 N alpha))^2.
+
+MDL names directions by the way of the light: `theta_o` of this module is the angle at which light arrives,
+theta_in there, and `theta_i` that of the eye. f_r is the same either way. f_t is in terms of flux, as MDL's
+own refraction is: what the eye sees is not divided by the square of the index.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nacreous.opencl.bsdf import Pairs
+from nacreous.opencl.device import Device
+from nacreous.opencl.film_colour import Side
+from nacreous.opencl.tiles import Observer, step_of
+from nacreous.tables.albedo.solver import check_albedo
+from nacreous.tables.bsdf.directions import DirectionGrid
+from nacreous.tables.bsdf.solver import BsdfSolver, bsdf_solver
+from nacreous.tables.computed import Computed, axis, grid_of
+from nacreous.tables.measured.certificate import MeasuredCertificate, certify
+from nacreous.tables.measured.multilinear import multilinear
+from nacreous.tables.measured.surface import Colours, colours_of
+from nacreous.tables.spec import Spec
+from nacreous.tables.table import Variable
+
+__all__ = ["MbsdfTable", "compute_mbsdf"]
+
+FloatArray = NDArray[np.float64]
+
+_BINS = (48, 72, 100)
+"""Numbers of bins to choose from; the last makes 24 MB a side."""
+_P90_ERROR, _ENERGY_ERROR = 1e-2, 2e-3
+"""Relative errors of f along a lobe, and of all its light, at which a grid is fine enough."""
+
+
+def compute_mbsdf(device: Device, spec: Spec, observer: Observer | None) -> Computed:
+    """Compute the table in linear colours; raises what `tabulate_table` raises."""
+    solver, grid = bsdf_solver(device, spec), grid_of(spec)
+    energy_max = check_albedo(solver.albedo, solver.roughness, grid)
+    shades = colours_of(spec, solver)
+    reflected, certificate = _settled(solver, shades, energy_max, step_of(observer, 0, 2))
+    tables = {"f_r_rgb": reflected}
+    if Side.TRANSMISSION in solver.sides(grid.wavelength_nm):
+        tables["f_t_rgb"] = _tabulated(solver, shades, Side.TRANSMISSION, reflected.bins)
+    if observer is not None:
+        observer(1.0)
+    dims = ("theta_o", "theta_i", "phi", "channel")
+    meaning = "linear colour of the bsdf"
+    variables = {name: Variable(dims, table.values, "1/sr", meaning) for name, table in tables.items()}
+    return Computed(_coords(reflected, shades), variables, certificate, solver.albedo.film.solver.precision)
+
+
+def _coords(table: "MbsdfTable", shades: Colours) -> dict[str, Variable]:
+    channels = np.array(shades.colouring.system.channels)
+    return {
+        **axis("theta_o", table.theta, "rad", "angle of the outgoing light to the normal, on its side"),
+        **axis("theta_i", table.theta, "rad", "angle of the incoming light to the normal"),
+        **axis("phi", table.phi, "rad", "azimuth of the outgoing light, from that of the incoming"),
+        **axis("channel", channels, "", "component of the linear colour"),
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class MbsdfTable:
+    """One side of a file, and how a reader evaluates it.
+
+    Parameters
+    ----------
+    values : float array, shape (N, N, 2 N, 3)
+        f in 1 / sr over theta_o, theta_i and phi.
+    """
+
+    values: NDArray[np.float32]
+
+    @property
+    def bins(self) -> int:
+        """Number of bins of a polar angle, N."""
+        return len(self.values)
+
+    @property
+    def theta(self) -> FloatArray:
+        """Polar angles in radians, (N,)."""
+        return _middles(self.bins) * (np.pi / 2)
+
+    @property
+    def phi(self) -> FloatArray:
+        """Azimuths between both directions in radians, (2 N,)."""
+        return _middles(2 * self.bins) * np.pi
+
+    def evaluate(self, pairs: Pairs) -> FloatArray:
+        """Return f cos_o at pairs of directions, (P, 3), as a linear volume texture gives it."""
+        theta_i, theta_o = (
+            np.arctan2(np.hypot(d[:, 0], d[:, 1]), abs(d[:, 2])) for d in (pairs.incoming, pairs.outgoing)
+        )
+        i, o = (np.arctan2(d[:, 1], d[:, 0]) for d in (pairs.incoming, pairs.outgoing))
+        between = np.abs(np.arctan2(np.sin(o - i), np.cos(o - i)))
+        f = multilinear(self.values, (self.theta, self.theta, self.phi), (theta_o, theta_i, between))
+        return f * np.abs(pairs.outgoing[:, 2:])
+
+
+def _settled(
+    solver: BsdfSolver, shades: Colours, energy_max: float, observer: Observer | None
+) -> tuple[MbsdfTable, MeasuredCertificate]:
+    """Take the fewest bins that are fine enough, or the most that a file has room for."""
+    for place, bins in enumerate(_BINS):
+        table = _tabulated(solver, shades, Side.REFLECTION, bins)
+        certificate = certify(solver, shades, table.evaluate, energy_max)
+        if observer is not None:
+            observer((place + 1) / len(_BINS))
+        fine = certificate.lobe_error_p90 <= _P90_ERROR
+        if fine and abs(certificate.lobe_energy_error) <= _ENERGY_ERROR:
+            break
+    return table, certificate
+
+
+def _tabulated(solver: BsdfSolver, shades: Colours, side: Side, bins: int) -> MbsdfTable:
+    theta, phi = _middles(bins) * (np.pi / 2), _middles(2 * bins) * np.pi
+    grid = DirectionGrid(np.zeros(1, np.int32), np.zeros(1), theta, theta, phi)
+    f = solver.colours(grid.pairs(side), side, shades.colouring).reshape(bins, bins, 2 * bins, shades.count)
+    return MbsdfTable(np.ascontiguousarray(f.swapaxes(0, 1), np.float32))
+
+
+def _middles(bins: int) -> FloatArray:
+    """Middles of equal bins of the unit interval."""
+    return (np.arange(bins) + 0.5) / bins
