@@ -21,7 +21,7 @@ horizon, too: Mitsuba looks at the cosines by itself, and a NaN would blacken th
 `nacreous.tables.measured.mueller` derives the numbers. Files are of 11 or 39 MB.
 
 Refused are several roughnesses, transmitted light, anisotropic surfaces, layers that are averaged in
-intensity, multiple scattering, and roughnesses below 0.02.
+intensity, a phong lobe, multiple scattering, and roughnesses below 0.02.
 """
 
 from pathlib import Path

@@ -7,16 +7,19 @@ angles (the facets, f over R) and what depends on theta_d and the wavelength:
     M(theta_h, theta_d, phi_d; lambda) = g(theta_h, theta_d, phi_d) F(theta_d, lambda)
 
     F = | a  b  0  0 |     a = (R_s + R_p) / 2,   b = (R_s - R_p) / 2
-        | b  a  0  0 |     c + i s = r_p conj(r_s)
+        | b  a  0  0 |     c + i s = conj(r_p) r_s
         | 0  0  c -s |
         | 0  0  s  c |
 
-with r_s and r_p as Mitsuba counts them: r_p of the magnetic field's sign, as our own, and the time factor
-exp(-i omega t). A diffuse term depolarises, and is in M00 alone.
+Mitsuba's amplitudes have the same signs, r_p = -r_s at normal incidence, but the time factor exp(+i omega t)
+and the index n - ik; ours are their conjugates. A diffuse term depolarises, and is in M00 alone.
 
 Readers are linear along arbitrary axes and check by themselves which directions are above the surface, but a
 NaN of a node blackens all cells around it. Nodes below the horizon therefore have g as it is at the horizon,
 and the film as it is at their own theta_d.
+
+What is linear between samples of a curve lies on one side of it, by h^2 / 12 times the second derivative on
+average. The samples over theta_h and theta_d are shifted by that, so that the light is right in all.
 """
 
 from dataclasses import dataclass
@@ -51,12 +54,16 @@ WAVELENGTHS = 5
 """What Mitsuba reads, no more and no fewer."""
 _GRIDS = ((17, 32, 64), (21, 52, 112))
 """Nodes of phi_d, theta_d and theta_h to choose from; they make 11 and 39 MB."""
-_MEDIAN_ERROR, _P90_ERROR = 1.5e-3, 7.5e-3
+_MEDIAN_ERROR, _P90_ERROR = 1e-3, 6e-3
 """Relative errors of f along a lobe, at the wavelengths of the file, at which a grid is fine enough."""
 _FINE = 8192
 """Angles at which the lobe is looked at to place nodes in it."""
 _FEWEST_NODES = 4
 """Cosines of a film that a cubic needs."""
+_DARK = 1e-30
+"""What keeps a black surface from being divided by."""
+_MOST_SHIFT = 0.02
+"""Part of R by which its samples are shifted at most, so that the matrix stays one of light."""
 _EVEN = 0.15
 """Share of the nodes that are even over all angles."""
 _FAINT = 3e-5
@@ -98,7 +105,7 @@ def mueller_wavelengths_nm(spec: Spec) -> FloatArray:
 
 
 def check_polarised(spec: Spec) -> None:
-    """Refuse films without a phase, and light that several facets reflect: its polarisation is not known."""
+    """Refuse films without a phase, and light of which no facet says how it is polarised."""
     averaged = any(not layer.coherent or layer.thickness_sigma_nm for layer in all_layers(spec.stack))
     if averaged:
         raise SpecError(
@@ -107,6 +114,9 @@ def check_polarised(spec: Spec) -> None:
             "layers whose intensities are averaged",
             "take rgl, or make the layers coherent and even",
         )
+    if surface_of(spec).distribution == "phong":
+        expected = "a distribution of facets: a phong lobe has none whose plane of reflection would be known"
+        raise SpecError("surface.distribution", expected, '"phong"', 'take "blinn", or rgl')
     if surface_of(spec).multiple_scattering != "none":
         expected = '"none": how light is polarised after several reflections is not modelled'
         raise SpecError("surface.multiple_scattering", expected, '"kulla-conty"', "take rgl")
@@ -159,7 +169,8 @@ def tabulated(
     theta_h = _lobe_nodes(solver, counts[2])
     at = HalfDifference.grid(theta_h, theta_d, phi_d).above()
     g = _facets(solver, at.pairs()).reshape(theta_h.size, theta_d.size, phi_d.size).transpose(2, 1, 0)
-    film = mueller_film(solver, np.cos(theta_d), nm)
+    g *= _unbiased_lobe(solver, theta_h)
+    film = _unbiased_film(solver, theta_d, mueller_film(solver, np.cos(theta_d), nm))
     values = g[..., None, None, None] * film[:, None]  # (P, D, H, L, 4, 4)
     values[..., 0, 0] += solver.albedo.diffuse / np.pi
     if observer is not None:
@@ -170,13 +181,13 @@ def tabulated(
 def mueller_film(solver: BsdfSolver, cosines: FloatArray, nm: FloatArray) -> FloatArray:
     """Return the film's Mueller matrices at cosines (D,) and wavelengths (L,): (D, L, 4, 4).
 
-    The kernel has tan(psi) exp(i Delta) = -r_p / r_s, so that r_p conj(r_s) is -|r_p r_s| exp(i Delta).
+    The kernel has tan(psi) exp(i Delta) = -r_p / r_s, so that conj(r_p) r_s is -|r_p r_s| exp(-i Delta).
     """
     film, grid = solver.albedo.film.solver, Grid(np.ones(1), cosines, nm)
     R = film.exact_intensities(grid)
     phase = np.asarray(film.ellipsometry(grid)["Delta"][0], np.float64)
     R_s, R_p = R["R_s"][0], R["R_p"][0]
-    crossed = -np.sqrt(R_s * R_p) * np.exp(1j * phase)
+    crossed = -np.sqrt(R_s * R_p) * np.exp(-1j * phase)
     matrix = np.zeros((*phase.shape, 4, 4))
     matrix[..., [0, 1], [0, 1]] = ((R_s + R_p) / 2)[..., None]
     matrix[..., [0, 1], [1, 0]] = ((R_s - R_p) / 2)[..., None]
@@ -200,11 +211,45 @@ def _lobe_nodes(solver: BsdfSolver, count: int) -> FloatArray:
     of the relative one.
     """
     theta = np.linspace(0, 1, _FINE) ** 2 * (np.pi / 2)
-    nothing = np.zeros_like(theta)
-    lobe = _facets(solver, HalfDifference(theta, nothing, nothing).above().pairs()) * np.cos(theta) ** 2
-    bend = np.abs(np.gradient(np.gradient(lobe, theta), theta)) / (lobe + _FAINT * lobe.max())
+    lobe = _lobe(solver, theta)
+    bend = np.abs(np.gradient(np.gradient(lobe, theta), theta)) / (lobe + _FAINT * max(lobe.max(), 1))
     density = np.sqrt(bend[1:] + bend[:-1]) * np.diff(theta)
     share = np.concatenate([[0], np.cumsum(density)]) / max(density.sum(), np.finfo(float).tiny)
     spread = (1 - _EVEN) * share + _EVEN * theta / theta[-1]
     nodes = np.interp(np.linspace(0, 1, count), spread, theta)
     return np.asarray(nodes.astype(np.float32), np.float64)
+
+
+def _lobe(solver: BsdfSolver, theta_h: FloatArray) -> FloatArray:
+    """Return the lobe of light that comes back where it came from, over theta_h (H,)."""
+    nothing = np.zeros_like(theta_h)
+    seen = HalfDifference(theta_h, nothing, nothing).above().pairs()
+    return np.asarray(_facets(solver, seen) * np.cos(theta_h) ** 2)
+
+
+def _unbiased_lobe(solver: BsdfSolver, theta_h: FloatArray) -> FloatArray:
+    """Return what the samples over theta_h, (H,), are multiplied with."""
+    lobe = _lobe(solver, theta_h)
+    return np.asarray(1 - _above_chords(theta_h, lobe) / np.maximum(lobe, _DARK))
+
+
+def _unbiased_film(solver: BsdfSolver, theta_d: FloatArray, film: FloatArray) -> FloatArray:
+    """Return the samples over theta_d, (D, L, 4, 4), as they are about the mirror direction."""
+    nothing = np.zeros_like(theta_d)
+    seen = HalfDifference(nothing, theta_d, nothing).above().pairs()
+    mirror = np.maximum(_facets(solver, seen), _DARK)[:, None, None, None]
+    bound = _MOST_SHIFT * film[..., :1, :1]
+    return film - np.clip(_above_chords(theta_d, mirror * film) / mirror, -bound, bound)
+
+
+def _above_chords(nodes: FloatArray, values: FloatArray) -> FloatArray:
+    """Return by how much chords between samples (N, …) lie above the curve on average, at each of the nodes.
+
+    The curve is even about the first node; about the last nothing is known.
+    """
+    h = np.diff(nodes).reshape(-1, *(1,) * (values.ndim - 1))
+    slope = np.diff(values, axis=0) / h
+    above = np.zeros_like(values)
+    above[1:-1] = (h[1:] ** 2 + h[:-1] ** 2) / 12 * np.diff(slope, axis=0) / (h[1:] + h[:-1])
+    above[0] = h[0] / 6 * slope[0]
+    return above
