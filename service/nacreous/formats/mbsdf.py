@@ -21,7 +21,7 @@ The SDK's examples take the mean of f and of f with its angles exchanged. Reflec
 Transmission into a denser substrate is not: they see it at both angles, half as bright. A host that reads the
 file as it stands has it right. Colours are those of the spec's space. Refused are several roughnesses,
 anisotropic surfaces, and a roughness below 0.05, whose lobe is narrower than the grid. Files are of 3 to
-48 MB; the certificate is of the reflected light.
+48 MB.
 """
 
 import struct

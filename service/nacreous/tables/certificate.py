@@ -8,7 +8,7 @@ from nacreous.tables.albedo.certificate import AlbedoCertificate
 from nacreous.tables.bsdf.certificate import BsdfCertificate
 from nacreous.tables.figures import Figures
 from nacreous.tables.fresnel.certificate import FresnelCertificate
-from nacreous.tables.measured.certificate import MeasuredCertificate
+from nacreous.tables.measured.certificate import MbsdfCertificate, MeasuredCertificate
 from nacreous.tables.sampling import Sampling
 
 __all__ = ["certificate_fields"]
@@ -20,5 +20,6 @@ _CERTIFICATES: Mapping[str, type[Figures]] = MappingProxyType(
 
 def certificate_fields(quantity: str, sampling: Sampling = Sampling.AXES) -> tuple[str, ...]:
     """Return the names of the figures that a table of this quantity, sampled there, is certified with."""
-    certificate = _CERTIFICATES[quantity] if sampling is Sampling.AXES else MeasuredCertificate
+    measured = MbsdfCertificate if sampling is Sampling.MBSDF else MeasuredCertificate
+    certificate = _CERTIFICATES[quantity] if sampling is Sampling.AXES else measured
     return tuple(field.name for field in fields(certificate))

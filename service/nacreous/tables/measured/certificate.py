@@ -5,7 +5,7 @@ drawn instead, always the same: along the lobe, as a renderer samples it, and al
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from nacreous.tables.figures import Figures
 from nacreous.tables.measured.rgl_grid import unit_vectors
 from nacreous.tables.measured.surface import Shades
 
-__all__ = ["MeasuredCertificate", "certify"]
+__all__ = ["MbsdfCertificate", "MeasuredCertificate", "certify", "certify_transmission"]
 
 FloatArray = NDArray[np.float64]
 
@@ -65,6 +65,39 @@ class MeasuredCertificate(Figures):
     film_error: float
     energy_max: float
     nonfinite: int
+
+
+@dataclass(frozen=True)
+class MbsdfCertificate(MeasuredCertificate):
+    """The same of a file that has transmission, too.
+
+    Parameters
+    ----------
+    transmission_error_mean : float
+        Mean absolute error of f_t cos_o over the mean of f_t cos_o, for light that leaves in all directions.
+    transmission_energy_error : float
+        Relative difference of the transmitted light in all, with its sign.
+    """
+
+    transmission_error_mean: float
+    transmission_energy_error: float
+
+
+def certify_transmission(
+    reflected: MeasuredCertificate,
+    truth: Callable[[Pairs], FloatArray],
+    evaluate: Callable[[Pairs], FloatArray],
+) -> MbsdfCertificate:
+    """Add what `evaluate` makes of f_t cos_o, (P, C), against the `truth`, 0 and 0 where there is none."""
+    above = _wide()
+    pairs = Pairs(above.roughness, above.incoming, above.outgoing * np.array([1.0, 1.0, -1.0]))
+    f, got = truth(pairs), evaluate(pairs)
+    total = max(float(f.sum()), np.finfo(float).tiny)
+    return MbsdfCertificate(
+        **asdict(reflected),
+        transmission_error_mean=float(np.abs(got - f).sum() / total),
+        transmission_energy_error=float((got - f).sum() / total),
+    )
 
 
 def certify(

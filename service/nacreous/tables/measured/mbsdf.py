@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from nacreous.opencl.bsdf import Pairs
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
-from nacreous.opencl.tiles import Observer, step_of
+from nacreous.opencl.tiles import Observer
 from nacreous.tables.albedo.solver import check_albedo
 from nacreous.tables.bsdf.directions import DirectionGrid
 from nacreous.tables.bsdf.solver import BsdfSolver, bsdf_solver
 from nacreous.tables.computed import Computed, axis, grid_of
-from nacreous.tables.measured.certificate import MeasuredCertificate, certify
+from nacreous.tables.measured.certificate import MbsdfCertificate, certify, certify_transmission
 from nacreous.tables.measured.multilinear import multilinear
 from nacreous.tables.measured.surface import Colours, colours_of
 from nacreous.tables.spec import Spec
@@ -35,6 +35,7 @@ FloatArray = NDArray[np.float64]
 
 _BINS = (48, 72, 100)
 """Numbers of bins to choose from; the last makes 24 MB a side."""
+_NAMES = {Side.REFLECTION: "f_r_rgb", Side.TRANSMISSION: "f_t_rgb"}
 _P90_ERROR, _ENERGY_ERROR = 1e-2, 2e-3
 """Relative errors of f along a lobe, and of all its light, at which a grid is fine enough."""
 
@@ -43,17 +44,14 @@ def compute_mbsdf(device: Device, spec: Spec, observer: Observer | None) -> Comp
     """Compute the table in linear colours; raises what `tabulate_table` raises."""
     solver, grid = bsdf_solver(device, spec), grid_of(spec)
     energy_max = check_albedo(solver.albedo, solver.roughness, grid)
-    shades = colours_of(spec, solver)
-    reflected, certificate = _settled(solver, shades, energy_max, step_of(observer, 0, 2))
-    tables = {"f_r_rgb": reflected}
-    if Side.TRANSMISSION in solver.sides(grid.wavelength_nm):
-        tables["f_t_rgb"] = _tabulated(solver, shades, Side.TRANSMISSION, reflected.bins)
-    if observer is not None:
-        observer(1.0)
-    dims = ("theta_o", "theta_i", "phi", "channel")
-    meaning = "linear colour of the bsdf"
-    variables = {name: Variable(dims, table.values, "1/sr", meaning) for name, table in tables.items()}
-    return Computed(_coords(reflected, shades), variables, certificate, solver.albedo.film.solver.precision)
+    shades, sides = colours_of(spec, solver), solver.sides(grid.wavelength_nm)
+    tables, certificate = _settled(solver, shades, sides, energy_max, observer)
+    dims, meaning = ("theta_o", "theta_i", "phi", "channel"), "linear colour of the bsdf"
+    variables = {
+        _NAMES[side]: Variable(dims, table.values, "1/sr", meaning) for side, table in tables.items()
+    }
+    coords = _coords(tables[Side.REFLECTION], shades)
+    return Computed(coords, variables, certificate, solver.albedo.film.solver.precision)
 
 
 def _coords(table: "MbsdfTable", shades: Colours) -> dict[str, Variable]:
@@ -105,18 +103,50 @@ class MbsdfTable:
 
 
 def _settled(
-    solver: BsdfSolver, shades: Colours, energy_max: float, observer: Observer | None
-) -> tuple[MbsdfTable, MeasuredCertificate]:
+    solver: BsdfSolver,
+    shades: Colours,
+    sides: tuple[Side, ...],
+    energy_max: float,
+    observer: Observer | None,
+) -> tuple[dict[Side, MbsdfTable], MbsdfCertificate]:
     """Take the fewest bins that are fine enough, or the most that a file has room for."""
     for place, bins in enumerate(_BINS):
-        table = _tabulated(solver, shades, Side.REFLECTION, bins)
-        certificate = certify(solver, shades, table.evaluate, energy_max)
+        tables = {side: _tabulated(solver, shades, side, bins) for side in sides}
+        certificate = _certified(solver, shades, tables, energy_max)
         if observer is not None:
             observer((place + 1) / len(_BINS))
-        fine = certificate.lobe_error_p90 <= _P90_ERROR
-        if fine and abs(certificate.lobe_energy_error) <= _ENERGY_ERROR:
+        if _is_fine(certificate):
             break
-    return table, certificate
+    if observer is not None:
+        observer(1.0)
+    return tables, certificate
+
+
+def _certified(
+    solver: BsdfSolver, shades: Colours, tables: dict[Side, MbsdfTable], energy_max: float
+) -> MbsdfCertificate:
+    exact, side = solver.exact(), Side.TRANSMISSION
+    reflected = certify(solver, shades, tables[Side.REFLECTION].evaluate, energy_max)
+    if side not in tables:
+        return certify_transmission(reflected, _nothing, _nothing)
+
+    def truth(pairs: Pairs) -> FloatArray:
+        f = exact.colours(pairs, side, shades.colouring)
+        return np.asarray(f * np.abs(pairs.outgoing[:, 2:]), np.float64)
+
+    return certify_transmission(reflected, truth, tables[side].evaluate)
+
+
+def _nothing(pairs: Pairs) -> FloatArray:
+    return np.zeros((len(pairs.roughness), 3))
+
+
+def _is_fine(certificate: MbsdfCertificate) -> bool:
+    return (
+        certificate.lobe_error_p90 <= _P90_ERROR
+        and abs(certificate.lobe_energy_error) <= _ENERGY_ERROR
+        and certificate.transmission_error_mean <= _P90_ERROR
+    )
 
 
 def _tabulated(solver: BsdfSolver, shades: Colours, side: Side, bins: int) -> MbsdfTable:

@@ -63,7 +63,7 @@ _FEWEST_NODES = 4
 _DARK = 1e-30
 """What keeps a black surface from being divided by."""
 _MOST_SHIFT = 0.02
-"""Part of R by which its samples are shifted at most, so that the matrix stays one of light."""
+"""Part of f by which its samples are shifted at most; dark tails bend beyond what this is for."""
 _EVEN = 0.15
 """Share of the nodes that are even over all angles."""
 _FAINT = 3e-5
@@ -229,27 +229,25 @@ def _lobe(solver: BsdfSolver, theta_h: FloatArray) -> FloatArray:
 
 def _unbiased_lobe(solver: BsdfSolver, theta_h: FloatArray) -> FloatArray:
     """Return what the samples over theta_h, (H,), are multiplied with."""
-    lobe = _lobe(solver, theta_h)
-    return np.asarray(1 - _above_chords(theta_h, lobe) / np.maximum(lobe, _DARK))
+    return _without_bias(theta_h, _lobe(solver, theta_h)[:, None])[:, 0]
 
 
 def _unbiased_film(solver: BsdfSolver, theta_d: FloatArray, film: FloatArray) -> FloatArray:
-    """Return the samples over theta_d, (D, L, 4, 4), as they are about the mirror direction."""
+    """Return the samples over theta_d, (D, L, 4, 4), as is right about the mirror direction."""
     nothing = np.zeros_like(theta_d)
-    seen = HalfDifference(nothing, theta_d, nothing).above().pairs()
-    mirror = np.maximum(_facets(solver, seen), _DARK)[:, None, None, None]
-    bound = _MOST_SHIFT * film[..., :1, :1]
-    return film - np.clip(_above_chords(theta_d, mirror * film) / mirror, -bound, bound)
+    mirror = _facets(solver, HalfDifference(nothing, theta_d, nothing).above().pairs())
+    return film * _without_bias(theta_d, mirror[:, None] * film[..., 0, 0])[..., None, None]
 
 
-def _above_chords(nodes: FloatArray, values: FloatArray) -> FloatArray:
-    """Return by how much chords between samples (N, …) lie above the curve on average, at each of the nodes.
+def _without_bias(nodes: FloatArray, values: FloatArray) -> FloatArray:
+    """Return by what samples (N, C) of a curve have to be multiplied so that chords are right on average.
 
-    The curve is even about the first node; about the last nothing is known.
+    A chord lies above the curve by h^2 / 12 times its second derivative, on average. The curve is even about
+    the first node; about the last nothing is known. A common factor leaves every Mueller matrix one of light.
     """
-    h = np.diff(nodes).reshape(-1, *(1,) * (values.ndim - 1))
+    h = np.diff(nodes)[:, None]
     slope = np.diff(values, axis=0) / h
     above = np.zeros_like(values)
     above[1:-1] = (h[1:] ** 2 + h[:-1] ** 2) / 12 * np.diff(slope, axis=0) / (h[1:] + h[:-1])
     above[0] = h[0] / 6 * slope[0]
-    return above
+    return np.asarray(1 - np.clip(above / np.maximum(values, _DARK), -_MOST_SHIFT, _MOST_SHIFT))
