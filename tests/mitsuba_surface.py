@@ -120,6 +120,24 @@ def spectral_values(
     return np.array(bsdf.eval(_context(), _interaction(i, wavelength_nm), _vectors(o)), np.float64).T
 
 
+def mueller_values(
+    bsdf: Bsdf, i: NDArray[np.float64], o: NDArray[np.float64], wavelength_nm: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Evaluate Mueller matrices times f cos_o at four wavelengths, in a polarised variant: (P, 4, 4, 4)."""
+    import mitsuba as mi
+
+    if mi.variant().startswith("scalar"):
+        interaction = mi.SurfaceInteraction3f()
+        interaction.wavelengths = wavelength_nm.tolist()
+        values = []
+        for wi, wo in zip(i.tolist(), o.tolist(), strict=True):
+            interaction.wi = wi
+            values.append(np.array(bsdf.eval(_context(), interaction, wo), np.float64))
+        return np.stack(values)
+    values = bsdf.eval(_context(), _interaction(i, wavelength_nm), _vectors(o))
+    return np.moveaxis(np.array(values, np.float64), -1, 0)
+
+
 def sampled(
     bsdf: Bsdf, i: NDArray[np.float64], wavelength_nm: NDArray[np.float64] | None, seed: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

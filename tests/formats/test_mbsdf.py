@@ -60,7 +60,7 @@ def test_reflection_is_the_same_from_either_end(file: Path) -> None:
 
 
 def test_light_goes_where_there_is_any(file: Path) -> None:
-    """Both sides together give back at most what falls on them, and of a clear film all but shadowed light."""
+    """Both sides together give back at most what falls on them, and of a clear film all but the shadowed."""
     eye = 5
     total = 0.0
     for side in read_mbsdf(file).values():

@@ -35,6 +35,8 @@ FloatArray = NDArray[np.float64]
 
 _BINS = (48, 72, 100)
 """Numbers of bins to choose from; the last makes 24 MB a side."""
+_LEAST_BINS_A_LOBE = 30
+"""4 N alpha below which a number of bins is not tried: the lobe's top would be off by more than 1 %."""
 _NAMES = {Side.REFLECTION: "f_r_rgb", Side.TRANSMISSION: "f_t_rgb"}
 _P90_ERROR, _ENERGY_ERROR = 1e-2, 2e-3
 """Relative errors of f along a lobe, and of all its light, at which a grid is fine enough."""
@@ -110,11 +112,13 @@ def _settled(
     observer: Observer | None,
 ) -> tuple[dict[Side, MbsdfTable], MbsdfCertificate]:
     """Take the fewest bins that are fine enough, or the most that a file has room for."""
-    for place, bins in enumerate(_BINS):
+    alpha = float(solver.facets.alphas.min())
+    worthwhile = [bins for bins in _BINS if 4 * bins * alpha >= _LEAST_BINS_A_LOBE] or [_BINS[-1]]
+    for place, bins in enumerate(worthwhile):
         tables = {side: _tabulated(solver, shades, side, bins) for side in sides}
         certificate = _certified(solver, shades, tables, energy_max)
         if observer is not None:
-            observer((place + 1) / len(_BINS))
+            observer((place + 1) / len(worthwhile))
         if _is_fine(certificate):
             break
     if observer is not None:
