@@ -1,8 +1,8 @@
 """Our Mueller matrices in Mitsuba 3's own, unmodified `measured_polarized`.
 
 Bare silver is held against Mitsuba's `roughconductor`, which knows of polarisation by itself: the sign of
-every element and its handedness are Mitsuba's. Both are in Stokes frames that Mitsuba turns, so that a frame of
-ours that were another would show, too.
+every element and its handedness are Mitsuba's. Both are in Stokes frames that Mitsuba turns, so that another
+frame of ours would show, too.
 """
 
 from collections.abc import Callable
