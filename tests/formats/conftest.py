@@ -1,15 +1,20 @@
 """Small tables for every test of the formats: computed ones, and such that are known at every sample."""
 
 from collections.abc import Callable
+from functools import cache
 
 import pytest
 
 from analytic_tables import analytic_albedo, analytic_bsdf
+from nacreous.formats.names import FormatName
+from nacreous.formats.registry import FORMATS
+from nacreous.tables.sampling import Sampling
 from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 from nacreous.tables.tabulate import tabulate_table
 
 Tabulated = Callable[..., Table]
+Held = Callable[[str], Table]
 
 WAVELENGTH_NM = {"start": 380, "stop": 780, "step": 20}
 
@@ -79,3 +84,25 @@ def computed_bsdf(tabulated: Tabulated) -> Table:
     """Return a BSDF of the film over the same angles of incoming and outgoing light."""
     angles = [0.0, 0.4, 0.8, 1.2]
     return tabulated(quantity="bsdf", roughness=[0.3], theta_i=angles, theta_o=angles, phi=5)
+
+
+@pytest.fixture(scope="session")
+def held(table: Table) -> Held:
+    """Return what gives a table that a format holds: a smooth film's, or a rough one's as its readers want it."""
+
+    @cache
+    def sampled(sampling: Sampling) -> Table:
+        film = {"material": {"n": 2.0}, "thickness_nm": 420}
+        spec = {
+            "name": "A rough film on silver",
+            "stack": {"incident": "air", "substrate": "main/Ag/Johnson", "layers": [film]},
+            "surface": {"distribution": "ggx", "masking": "smith", "alpha_x": 0.4},
+            "table": {"quantity": "bsdf", "wavelength_nm": WAVELENGTH_NM},
+        }
+        return tabulate_table(Spec.from_document(spec), sampling=sampling)
+
+    def held_by(name: str) -> Table:
+        sampling = FORMATS[FormatName(name)].sampling
+        return table if sampling is Sampling.AXES else sampled(sampling)
+
+    return held_by
