@@ -88,7 +88,7 @@ def computed_bsdf(tabulated: Tabulated) -> Table:
 
 @pytest.fixture(scope="session")
 def held(table: Table) -> Held:
-    """Return what gives a table that a format holds: a smooth film's, or a rough one's as its readers want it."""
+    """Return what gives a table for a format: of a smooth film, or of a rough one as its readers want it."""
 
     @cache
     def sampled(sampling: Sampling) -> Table:

@@ -137,7 +137,7 @@ def test_colours_outside_the_space_have_no_negative_component(tmp_path: Path) ->
     layers = [{"material": {"n": n}, "thickness_nm": 530 / 4 / n} for n in (1.6, 1.5)]
     stack = {
         "incident": {"n": 1.5},
-        "layers": [{"repeat": 20, "layers": layers}],
+        "layers": [{"repeat": 12, "layers": layers}],
         "substrate": {"n": 1.5, "k": 0.002},
     }
     spec = changed_spec(stack=stack)
