@@ -131,7 +131,7 @@ def test_a_film_has_the_light_of_its_bsdf(
 def test_light_up_to_the_horizon_is_seen(
     mitsuba: ModuleType, loaded: Callable[[ModuleType, Spec], Bsdf], device: Device
 ) -> None:
-    """Cells that the horizon cuts are not black: grazing light is within a third of f, and nowhere 0."""
+    """Cells that the horizon cuts are not black: nine of ten within 7 % of f, all within 15 %."""
     random = np.random.default_rng(5)
     turn, cosine = random.uniform(-np.pi, np.pi, 100), random.uniform(0.01, 0.06, 100)
     sine = np.sqrt(1 - cosine**2)
@@ -140,5 +140,6 @@ def test_light_up_to_the_horizon_is_seen(
     got = mueller_values(loaded(mitsuba, silver(0.4)), i, o, nm)[:, 0, 0]
     expected = bsdf_solver(device, silver(0.4)).reflection(0, i, o, nm) * o[:, 2:]
     assert (got > 0).all()
-    assert np.median(np.abs(got / expected - 1)) <= 0.05
-    assert np.abs(got / expected - 1).max() <= 1 / 3
+    error = np.abs(got / expected - 1)
+    assert np.quantile(error, 0.9) <= 0.07
+    assert error.max() <= 0.15

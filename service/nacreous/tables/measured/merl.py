@@ -42,6 +42,8 @@ def compute_merl(device: Device, spec: Spec, observer: Observer | None) -> Compu
     shades = colours_of(spec, solver)
     table = MerlTable(_values(shades, solver, observer))
     certificate = certify(solver, shades, table.evaluate, energy_max)
+    if observer is not None:
+        observer(1.0)
     theta_h, theta_d, phi_d = _middles()
     coords = {
         **axis("theta_h", theta_h, "rad", "angle of the half vector to the normal"),
