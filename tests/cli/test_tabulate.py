@@ -27,6 +27,22 @@ thickness_nm = 420.0
 cos_theta = 5
 """
 
+ROUGH = """
+[stack]
+incident = "air"
+substrate = "main/Ag/Johnson"
+[[stack.layers]]
+material = { n = 2.0 }
+thickness_nm = 420.0
+[surface]
+alpha_x = 0.4
+[table]
+quantity = "bsdf"
+theta_i = 3
+theta_o = 3
+phi = 3
+"""
+
 
 def test_writes_an_exr_and_prints_its_path(run: Run, tmp_path: Path) -> None:
     """The default format; a preset's name with its slash replaced; nothing on stderr in a pipe."""
@@ -36,15 +52,19 @@ def test_writes_an_exr_and_prints_its_path(run: Run, tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(done.stdout.splitlines())
 
 
-def test_writes_every_format_into_a_folder_that_it_makes(run: Run, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("text", "quantity"), [(FILM, "fresnel"), (ROUGH, "bsdf")])
+def test_writes_every_format_into_a_folder_that_it_makes(
+    run: Run, tmp_path: Path, text: str, quantity: str
+) -> None:
     """A spec file's name is the files' name; a format asked for twice, or a file of two, is told once."""
-    (tmp_path / "my.film.toml").write_text(FILM)
-    options = [option for name in (*FORMATS, "exr") for option in ("--format", name)]
+    (tmp_path / "my.film.toml").write_text(text)
+    able = {name: chosen for name, chosen in FORMATS.items() if quantity in chosen.quantities}
+    options = [option for name in (*able, "exr") for option in ("--format", name)]
     done = run("tabulate", "my.film.toml", *options, "-o", "made/here")
     assert done.returncode == 0, done.stderr
     written = [tmp_path / line for line in done.stdout.splitlines()]
     assert sorted(written) == sorted((tmp_path / "made" / "here").iterdir())
-    for name, chosen in FORMATS.items():
+    for name, chosen in able.items():
         assert tmp_path / "made" / "here" / f"my.film{chosen.suffix}" in written, name
     assert all(verify(path).good for path in written)
 

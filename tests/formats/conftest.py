@@ -87,19 +87,26 @@ def computed_bsdf(tabulated: Tabulated) -> Table:
 
 
 @pytest.fixture(scope="session")
-def held(table: Table) -> Held:
+def rough_opaque(tabulated: Tabulated) -> Table:
+    """Return a BSDF of the film on silver, whose spec every format with readers of its own takes."""
+    angles = [0.0, 0.8]
+    return tabulated(
+        substrate="main/Ag/Johnson",
+        quantity="bsdf",
+        roughness=[0.4],
+        theta_i=angles,
+        theta_o=angles,
+        phi=[0.0, 3.0],
+    )
+
+
+@pytest.fixture(scope="session")
+def held(table: Table, rough_opaque: Table) -> Held:
     """Return what gives a table for a format: of a smooth film, or of a rough one as its readers want it."""
 
     @cache
     def sampled(sampling: Sampling) -> Table:
-        film = {"material": {"n": 2.0}, "thickness_nm": 420}
-        spec = {
-            "name": "A rough film on silver",
-            "stack": {"incident": "air", "substrate": "main/Ag/Johnson", "layers": [film]},
-            "surface": {"distribution": "ggx", "masking": "smith", "alpha_x": 0.4},
-            "table": {"quantity": "bsdf", "wavelength_nm": WAVELENGTH_NM},
-        }
-        return tabulate_table(Spec.from_document(spec), sampling=sampling)
+        return tabulate_table(rough_opaque.spec, sampling=sampling)
 
     def held_by(name: str) -> Table:
         sampling = FORMATS[FormatName(name)].sampling

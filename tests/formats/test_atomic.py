@@ -16,6 +16,7 @@ from nacreous.formats.atomic import replacing
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS
 from nacreous.formats.verify import verify
+from nacreous.tables.sampling import Sampling
 from nacreous.tables.table import Table, Variable
 
 
@@ -197,25 +198,28 @@ def test_a_process_killed_in_mid_write_leaves_the_old_file(tmp_path: Path) -> No
 
 
 _WRITES_FOR_EVER = """
-import pickle, sys
+import sys
 from pathlib import Path
-from nacreous.formats.registry import write
+from nacreous.formats.registry import format_of, sampled_for
 from nacreous.tables.table import Table
 import xarray
-table = Table.from_xarray(xarray.load_dataset(sys.argv[1], engine="h5netcdf"))
+path = Path(sys.argv[2])
+chosen = format_of(path)
+table = sampled_for(chosen, Table.from_xarray(xarray.load_dataset(sys.argv[1], engine="h5netcdf")))
 while True:
-    write(table, sys.argv[2])
+    chosen.write(table, path)
     print("written", flush=True)
 """
 
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_writer_killed_at_any_moment_leaves_a_complete_file(
-    table: Table, tmp_path: Path, name: str
+    table: Table, rough_opaque: Table, tmp_path: Path, name: str
 ) -> None:
     """The file is replaced again and again; at every kill it is one that `verify` finds good."""
     source = tmp_path / "source.nc"
-    FORMATS["netcdf"].write(table, source)
+    of_axes = FORMATS[name].sampling is Sampling.AXES
+    FORMATS["netcdf"].write(table if of_axes else rough_opaque, source)
     path = tmp_path / f"film{FORMATS[name].suffix}"
     for rounds in (1, 3):
         command = [sys.executable, "-c", _WRITES_FOR_EVER, str(source), str(path)]
@@ -231,26 +235,35 @@ _WRITES_TOO_MUCH = """
 import resource, sys
 from pathlib import Path
 from nacreous.errors import FileFormatError
-from nacreous.formats.registry import FORMATS
+from nacreous.formats.registry import FORMATS, sampled_for
+from nacreous.tables.sampling import Sampling
 from nacreous.tables.table import Table
 import xarray
-table = Table.from_xarray(xarray.load_dataset(sys.argv[1], engine="h5netcdf"))
-resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[3]), resource.RLIM_INFINITY))
+smooth, rough = (Table.from_xarray(xarray.load_dataset(name, engine="h5netcdf")) for name in sys.argv[1:3])
+tables = {
+    name: smooth if chosen.sampling is Sampling.AXES else sampled_for(chosen, rough)
+    for name, chosen in FORMATS.items()
+}
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[4]), resource.RLIM_INFINITY))
 for name, chosen in FORMATS.items():
     try:
-        chosen.write(table, Path(sys.argv[2], "film" + chosen.suffix))
+        chosen.write(tables[name], Path(sys.argv[3], "film" + chosen.suffix))
     except FileFormatError as error:
         print(name, str(error).rpartition(": ")[2], sep="\t")
 """
 
 
 @pytest.mark.parametrize("limit", [64, 1000])
-def test_a_write_that_fails_leaves_nothing(table: Table, tmp_path: Path, limit: int) -> None:
+def test_a_write_that_fails_leaves_nothing(
+    table: Table, rough_opaque: Table, tmp_path: Path, limit: int
+) -> None:
     """The kernel refuses what goes beyond RLIMIT_FSIZE with EFBIG, as a full disk does with ENOSPC."""
-    source, folder = tmp_path / "source.nc", tmp_path / "out"
-    FORMATS["netcdf"].write(table, source)
+    sources, folder = [tmp_path / "smooth.nc", tmp_path / "rough.nc"], tmp_path / "out"
+    for each, source in zip((table, rough_opaque), sources, strict=True):
+        FORMATS["netcdf"].write(each, source)
     folder.mkdir()
-    command = [sys.executable, "-c", _WRITES_TOO_MUCH, str(source), str(folder), str(limit)]
+    arguments = (*map(str, sources), str(folder), str(limit))
+    command = [sys.executable, "-c", _WRITES_TOO_MUCH, *arguments]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     reasons = dict(line.split("\t") for line in done.stdout.splitlines())
     assert set(reasons) == set(FORMATS)
