@@ -13,6 +13,7 @@ from nacreous.opencl.film_colour import Side
 from nacreous.optics.stack import sample_stack
 from nacreous.tables.bsdf import bsdf_solver
 from nacreous.tables.measured.mueller import MuellerTable, mueller_film, tabulated
+from nacreous.tables.spec import Spec
 from reference import film
 
 WAVELENGTH_NM = np.array([400.0, 480.0, 560.0, 640.0, 720.0])
@@ -75,6 +76,15 @@ def test_diffuse_light_is_unpolarised(device: Device) -> None:
     values = table_of("diffuse", device).values[:, 0, -20].astype(np.float64)
     assert (np.abs(values[..., 1:, :]).max(axis=(-2, -1)) < 0.02 * values[..., 0, 0]).all()
     np.testing.assert_allclose(values[..., 0, 0], 0.2 * 0.5 / np.pi, rtol=0.02)
+
+
+def test_a_surface_without_a_lobe_is_not_divided_by(device: Device) -> None:
+    """Facets that reflect nothing leave Lambert's term, whatever the nodes of their lobe are."""
+    fields = measured_spec("diffuse").model_dump(mode="json")
+    fields["surface"] |= {"specular_weight": 0.0}
+    values = tabulated(bsdf_solver(device, Spec.from_document(fields)), (5, 6, 7), WAVELENGTH_NM, None).values
+    np.testing.assert_allclose(values[..., 0, 0], 0.2 * 0.5 / np.pi, rtol=1e-6)
+    assert not values[..., 1:, :].any()
 
 
 def test_the_certificate_is_of_what_a_reader_sees() -> None:

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["multilinear"]
+__all__ = ["interval", "multilinear"]
 
 FloatArray = NDArray[np.float64]
 
@@ -18,7 +18,7 @@ def multilinear(
 
     Beyond the ends of an axis the outermost values hold.
     """
-    cells = [_cell(nodes, values) for nodes, values in zip(axes, at, strict=True)]
+    cells = [interval(nodes, values) for nodes, values in zip(axes, at, strict=True)]
     total = np.zeros((at[0].size, table.shape[-1]))
     for corner in product((0, 1), repeat=len(axes)):
         places = tuple(first + side for (first, _), side in zip(cells, corner, strict=True))
@@ -27,7 +27,7 @@ def multilinear(
     return total
 
 
-def _cell(nodes: FloatArray, at: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
+def interval(nodes: FloatArray, at: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
     """Return the interval of an axis that values lie in, or are nearest to, and their place in it."""
     first = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, nodes.size - 2)
     return first, np.clip((at - nodes[first]) / (nodes[first + 1] - nodes[first]), 0, 1)

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.bsdf import Pairs
 from nacreous.optics.square_density import SquareDensities, bilinear
+from nacreous.tables.measured.multilinear import interval
 from nacreous.tables.measured.rgl_grid import RglGrid, unit_of_phi, unit_of_theta
 from nacreous.tables.table import Variable
 
@@ -76,22 +77,15 @@ def angles_of(directions: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def _slices(grid: RglGrid, theta: FloatArray, phi: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
     """Return the slices about incoming directions, (P, 2) or (P, 4), and their weights."""
-    lower, upper_share = _interval(grid.theta_i, theta)
+    lower, upper_share = interval(grid.theta_i, theta)
     tilts = ((lower, 1 - upper_share), (lower + 1, upper_share))
     if grid.isotropic:
         around = [(np.zeros_like(lower), np.ones_like(theta))]
     else:
-        first, share = _interval(grid.phi_i, phi)
+        first, share = interval(grid.phi_i, phi)
         around = [(first, 1 - share), (first + 1, share)]
     corners = [(q * grid.tilts + i, a * b) for q, a in around for i, b in tilts]
     return np.stack([c[0] for c in corners], -1), np.stack([c[1] for c in corners], -1)
-
-
-def _interval(axis_values: FloatArray, at: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
-    """Return the interval of an axis that a value lies in, or is nearest to, and its place there."""
-    first = np.clip(np.searchsorted(axis_values, at, side="right") - 1, 0, axis_values.size - 2)
-    width = axis_values[first + 1] - axis_values[first]
-    return first, np.clip((at - axis_values[first]) / width, 0, 1)
 
 
 def looked_up(table: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
