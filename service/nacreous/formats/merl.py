@@ -11,9 +11,9 @@ has not, is written as 0, since the database marks bins without a value by negat
 
 The layout has no room for attributes, and nothing may follow the planes: some readers take all that a file
 has. But light above the surface never reaches a quarter of the bins, and readers take any negative number
-there for no value. These numbers carry the provenance, six bytes each: red's bins first, in the order of the file,
--1 - v / 2^48 each. The first v is the length of a text, the others the text, JSON in ASCII, the first byte
-least. Bins that are left are -1.
+there for no value. These numbers carry the provenance, six bytes each: red's bins first, in the order of the
+file, -1 - v / 2^48 each. The first v is the length of a text, the others the text, JSON in ASCII, the first
+byte least. Bins that are left are -1.
 
 Refused are several roughnesses, transmitted light, anisotropic surfaces and roughnesses below 0.02.
 """

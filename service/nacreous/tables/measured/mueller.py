@@ -216,7 +216,7 @@ def _lobe_nodes(solver: BsdfSolver, count: int) -> FloatArray:
     density = np.sqrt(bend[1:] + bend[:-1]) * np.diff(theta)
     share = np.concatenate([[0], np.cumsum(density)]) / max(density.sum(), np.finfo(float).tiny)
     spread = (1 - _EVEN) * share + _EVEN * theta / theta[-1]
-    nodes = np.interp(np.linspace(0, 1, count), spread, theta)
+    nodes = np.interp(np.linspace(0, spread[-1], count), spread, theta)
     return np.asarray(nodes.astype(np.float32), np.float64)
 
 
