@@ -199,6 +199,13 @@ def test_tiles_do_not_matter(side: ProblemOf, device: Device, monkeypatch: pytes
     assert told[-1] == 1
 
 
+def test_too_few_nodes_are_refused(device: Device) -> None:
+    """A cubic goes through four."""
+    problem = reflection(device, ("ggx", "smith", (0.3, 0.3)))
+    with pytest.raises(ValueError, match="4 cosines or more, got 3"):
+        replace(problem, film=problem.film[:3])
+
+
 def test_too_many_pairs_are_refused(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     """The messages have the size and the limit."""
     problem = reflection(device, ("ggx", "smith", (0.3, 0.3)))

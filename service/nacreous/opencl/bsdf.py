@@ -18,6 +18,7 @@ from nacreous.opencl.tiles import Observer, Tile, TileRunner, empty_table, row_t
 
 __all__ = ["BsdfProblem", "Pairs", "bsdf_colours", "bsdf_spectra"]
 
+_FEWEST_NODES = 4
 _FACET_EVALUATIONS = 50
 """What the geometry of a pair costs, in evaluations of a layer."""
 
@@ -49,7 +50,7 @@ class BsdfProblem:
     side : Side
         f_r for reflection, f_t for transmission.
     film : float array, shape (K, L)
-        Unpolarised R or T at K cosines equally spaced over [0, 1].
+        Unpolarised R or T at K >= 4 cosines equally spaced over [0, 1].
     eta : float array, shape (2, L)
         Index of the incident medium and of the substrate.
     pairs : Pairs
@@ -60,6 +61,10 @@ class BsdfProblem:
     film: NDArray[np.float64]
     eta: NDArray[np.float64]
     pairs: Pairs
+
+    def __post_init__(self) -> None:
+        if len(self.film) < _FEWEST_NODES:  # kernels/nodes.clh reads four
+            raise ValueError(f"expected a film at {_FEWEST_NODES} cosines or more, got {len(self.film)}")
 
 
 def bsdf_spectra(
