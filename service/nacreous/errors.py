@@ -49,7 +49,7 @@ class BudgetError(NacreousError):
         self.needed_bytes, self.limit_bytes = needed_bytes, limit_bytes
         super().__init__(
             f"{what} needs {_size(needed_bytes)} and the limit is {_size(limit_bytes)}; "
-            "use fewer samples on an axis, or raise NACREOUS_BYTE_BUDGET"
+            "use fewer samples on an axis, where the format leaves that to you, or raise NACREOUS_BYTE_BUDGET"
         )
 
 

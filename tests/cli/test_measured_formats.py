@@ -1,6 +1,7 @@
 """Measured materials through the program: what they cannot hold is one message, what they can is verified."""
 
 import json
+import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -32,6 +33,12 @@ def document(
     )
 
 
+def budget(size: str) -> dict[str, str]:
+    """Return the environment with a budget of bytes."""
+    return {**os.environ, "NACREOUS_BYTE_BUDGET": size}
+
+
+DIFFUSE = {"diffuse_weight": 0.5, "diffuse_reflectance": 0.5, "specular_weight": 0.5}
 ONE = document(table={"roughness": [0.1, 0.2]})
 TURNED = document(surface={"alpha_y": 0.2})
 CLEAR = document(substrate=GLASS)
@@ -72,6 +79,60 @@ def test_what_a_format_cannot_hold_is_one_message(
     assert done.stderr.startswith("nacreous: ")
     assert done.stderr.count("\n") == 1
     assert all(word in done.stderr for word in ("expected ", ", got ", *told)), done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["film.json"]
+
+
+def test_what_a_later_format_refuses_leaves_nothing_of_an_earlier_one(run: Run, tmp_path: Path) -> None:
+    """All tables are computed before any is written: of two budgets, the second is exceeded."""
+    (tmp_path / "film.json").write_text(document())
+    done = run("tabulate", "film.json", "--format", "rgl-rgb", "--format", "mueller", env=budget("20M"))
+    assert done.returncode == 2, done.stderr
+    assert "Mueller matrices" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["film.json"]
+
+
+def test_a_grid_that_is_too_coarse_is_told(run: Run, tmp_path: Path) -> None:
+    """A film of 20 micrometres has fringes that no grid of a reader follows: a file, and a line on stderr."""
+    (tmp_path / "film.json").write_text(
+        document(substrate={"n": 1.5, "k": 0.01}, layer={"thickness_nm": 20_000})
+    )
+    done = run("tabulate", "film.json", "--format", "rgl")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "film.bsdf\n"
+    assert done.stderr.startswith("nacreous: rgl: the grid that readers fix is too coarse")
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(("stem", "name"), [("film.spectral", "exr"), ("film.rgb", "rgl")])
+def test_a_name_of_another_format_is_refused(run: Run, tmp_path: Path, stem: str, name: str) -> None:
+    """film.spectral.exr is read as spectra, whatever it was written as."""
+    (tmp_path / f"{stem}.json").write_text(document())
+    done = run("tabulate", f"{stem}.json", "--format", name)
+    assert done.returncode == 2
+    assert f"leave .{stem.removeprefix('film.')}." in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == [f"{stem}.json"]
+
+
+FRESNEL = {"quantity": "fresnel"}
+LOST = {
+    "no colours of a screen": ("materialx", {}, {"colour": {"space": "XYZ"}}, "colour.space"),
+    "a diffuse term, gltf": ("gltf", DIFFUSE, {}, "surface"),
+    "a diffuse term, materialx": ("materialx", DIFFUSE, {}, "surface"),
+    "an anisotropic surface": ("gltf", {"alpha_y": 0.2}, {}, "surface.alpha_y"),
+    "few angles": ("gltf", {}, {"table": FRESNEL | {"cos_theta": 8}}, "table.cos_theta"),
+}
+
+
+@pytest.mark.parametrize(("name", "surface", "sections", "field"), LOST.values(), ids=LOST)
+def test_what_a_material_would_lose_is_refused(
+    run: Run, tmp_path: Path, name: str, surface: dict[str, Any], sections: dict[str, Any], field: str
+) -> None:
+    """A material of another program holds the film and its roughness, or none is written."""
+    spec = json.loads(document(surface=surface, table=FRESNEL)) | sections
+    (tmp_path / "film.json").write_text(json.dumps(spec))
+    done = run("tabulate", "film.json", "--format", name)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.startswith(f"nacreous: {field}: ")
     assert [path.name for path in tmp_path.iterdir()] == ["film.json"]
 
 

@@ -24,7 +24,7 @@ substrate = { n = 1.5 }
 material = { n = 2.0 }
 thickness_nm = 420.0
 [table]
-cos_theta = 5
+cos_theta = 9
 """
 
 ROUGH = """

@@ -13,6 +13,7 @@ import pytest
 from analytic_tables import ALBEDO_AXES, BSDF_AXES, analytic_albedo, known
 from nacreous.errors import FileFormatError
 from nacreous.formats import exr
+from nacreous.formats.registry import write
 from nacreous.tables.spec import Spec
 from nacreous.tables.table import Table
 from reference_colour import film_colour
@@ -232,3 +233,15 @@ def test_an_all_but_smooth_albedo_has_the_colour_of_the_film(computed_albedo: Ta
     at = texel(spec, {"roughness": 0.02, "thickness_scale": 1.0, "cos_theta": 1.0})
     expected = film_colour([1.000277, 2.0, 1.5], [420.0], 1.0)
     np.testing.assert_allclose(pixels[at], expected, atol=2e-3)
+
+
+def test_the_transmission_of_another_film_is_not_removed(
+    opaque: Table, one_thickness: Table, tmp_path: Path
+) -> None:
+    """film.transmission.exr goes with film.exr where it holds T; the R of a film of that name stays."""
+    write(opaque, tmp_path / "film.transmission.exr", "exr")
+    write(opaque, tmp_path / "film.exr")
+    assert (tmp_path / "film.transmission.exr").exists()
+    write(one_thickness, tmp_path / "other.exr")
+    write(opaque, tmp_path / "other.exr")
+    assert not (tmp_path / "other.transmission.exr").exists()

@@ -171,7 +171,7 @@ def test_uneven_axes_are_refused_before_anything_is_computed(fields: dict[str, o
 def test_rough_surfaces_are_refused_with_the_alternatives(request: pytest.FixtureRequest, name: str) -> None:
     """MaterialX has facets of its own."""
     surface: Table = request.getfixturevalue(name)
-    with pytest.raises(SpecError, match=rf"holds a {name} table \(exr"):
+    with pytest.raises(SpecError, match=rf"holds {name} tables \(exr"):
         parts_of([MATERIALX], surface.spec)
 
 

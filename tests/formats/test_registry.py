@@ -151,7 +151,7 @@ def test_every_quantity_that_a_format_holds_is_good_and_the_same_every_time(
 def test_a_format_that_cannot_hold_a_quantity_is_refused_before_it_is_computed(bsdf: Table) -> None:
     """The message names option, quantity and the formats that can; a spec is all it takes."""
     with pytest.raises(
-        SpecError, match=r"bsdf table \(exr, npz, netcdf, csv, png[^)]*\), got .spectral-exr"
+        SpecError, match=r"bsdf tables \(exr, npz, netcdf, csv, png[^)]*\), got .spectral-exr"
     ) as refused:
         parts_of([FORMATS[FormatName.EXR], FORMATS[FormatName.SPECTRAL_EXR]], bsdf.spec)
     assert refused.value.field == "format"

@@ -9,6 +9,10 @@ from nacreous.formats.names import FormatName
 
 __all__ = ["AsJson", "Assignments", "Formats", "OutputFolder", "SpecOrPreset"]
 
+_FORMATS = "Format to write, exr without one; may be given again.\n\n" + "\n\n".join(
+    f"{name}: {name.advice}" for name in FormatName
+)
+
 SpecOrPreset = Annotated[
     str, typer.Argument(metavar="SPEC|PRESET", help="A .toml or .json file, or a name of `nacreous presets`.")
 ]
@@ -18,7 +22,7 @@ Assignments = Annotated[
 ]
 Formats = Annotated[
     list[FormatName] | None,
-    typer.Option("--format", help="Format to write, exr without one; may be given again."),
+    typer.Option("--format", metavar="FORMAT", help=_FORMATS),
 ]
 OutputFolder = Annotated[
     Path, typer.Option("--output", "-o", metavar="DIR", help="Folder to write to; made if absent.")

@@ -1,6 +1,7 @@
 """``nacreous tabulate``: from a spec to files."""
 
 import json
+import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
@@ -31,14 +32,18 @@ def tabulate(
     file is an EXR, the lookup texture for renderers.
     """
     from nacreous.cli.output import check_folder, file_stem
-    from nacreous.formats.registry import FORMATS
+    from nacreous.formats.registry import FORMATS, check_name
     from nacreous.tables.presets import load
 
     began = perf_counter()
     check_folder(output)
     chosen = [FORMATS[name] for name in dict.fromkeys(formats or [FormatName.EXR])]
-    for table, formats_of_it in _computed(load(spec, assignments or ()), chosen):
-        output.mkdir(parents=True, exist_ok=True)
+    for each in chosen:
+        check_name(each, Path(file_stem(spec) + each.suffix))
+    computed = list(_computed(load(spec, assignments or ()), chosen))  # all of them, before any is written
+    output.mkdir(parents=True, exist_ok=True)
+    for table, formats_of_it in computed:
+        _warn(table, formats_of_it)
         for path, written_as in _written(table, formats_of_it, output / file_stem(spec)):
             print(_record(table, path, written_as, perf_counter() - began) if as_json else path, flush=True)
 
@@ -55,6 +60,15 @@ def _computed(spec: "Spec", formats: "Sequence[Format]") -> "Iterator[tuple[Tabl
         with progress("tabulating") as observer:
             table = tabulate_table(spec, parts_of(alike, spec), sampling=sampling, observer=observer)
         yield table, alike
+
+
+def _warn(table: "Table", formats: "Sequence[Format]") -> None:
+    """Say on stderr where a format's own grid is too coarse; the certificate has the figures."""
+    from nacreous.tables.measured.certificate import shortfall
+
+    if fault := shortfall(table.certificate):
+        names = ", ".join(chosen.name for chosen in formats)
+        print(f"nacreous: {names}: {fault}", file=sys.stderr)
 
 
 def _written(table: "Table", formats: "Sequence[Format]", stem: Path) -> "Iterator[tuple[Path, Format]]":

@@ -1,21 +1,50 @@
 """What a table's file holds once it is read again."""
 
-from collections.abc import Iterable, Mapping
+import struct
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
 from numpy.typing import NDArray
 
+from nacreous.errors import FileFormatError, reason
 from nacreous.tables.digest import digest
 from nacreous.tables.sampling import Sampling
 
-__all__ = ["CHECKSUM", "PREFIX", "Contents", "checksum", "labelled", "provenance_of"]
+__all__ = ["CHECKSUM", "PREFIX", "Contents", "checksum", "labelled", "provenance_of", "reading"]
 
 PREFIX = "nacreous:"
 """Begins the name of every attribute that Nacreous writes, in every format."""
 
 CHECKSUM = f"{PREFIX}checksum"
 """The attribute that holds `checksum`."""
+
+
+_UNREADABLE = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    MemoryError,
+    OSError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+    struct.error,
+)
+"""What parsers, ours and others', make of damaged bytes: an offset of 2^63, a document nested 20,000 deep."""
+
+
+@contextmanager
+def reading(what: str) -> Iterator[None]:
+    """Say of whatever a reader raises over a damaged file that `what` was expected: `FileFormatError`."""
+    try:
+        yield
+    except _UNREADABLE as error:
+        raise FileFormatError(
+            f"expected {what}, got one that cannot be read: {reason(error) or type(error).__name__}"
+        ) from error
 
 
 @dataclass(frozen=True, eq=False)

@@ -36,9 +36,11 @@ from nacreous.formats.atomic import replacing
 from nacreous.formats.contents import Contents, checksum, labelled
 from nacreous.formats.gltf_sphere import sphere
 from nacreous.formats.lookup import coloured_names
+from nacreous.formats.specular import check_specular
 from nacreous.optics.iridescence import Iridescence, iridescent_reflectance
 from nacreous.tables.fit.gltf import GltfFit, fit_gltf
 from nacreous.tables.fit.target import STATED_DEG, FitTarget, check_fittable
+from nacreous.tables.measured.surface import check_isotropic
 from nacreous.tables.spec import Spec, surface_of
 from nacreous.tables.table import Table
 
@@ -56,7 +58,12 @@ _COLOUR_DIGITS, _DELTA_E_DIGITS = 5, 2
 _DIGITS = 4
 """Decimals of the fitted parameters, which the fit has rounded already, in its own units."""
 
-check = check_fittable
+
+def check(spec: Spec) -> None:
+    """Refuse a spec that cannot be fitted, or of what the material would lose; raises `SpecError`."""
+    check_fittable(spec)
+    check_isotropic(spec, "gltf", "materialx")
+    check_specular(spec, "gltf")
 
 
 def write(table: Table, path: Path) -> tuple[Path, ...]:

@@ -34,8 +34,10 @@ from nacreous.formats.lookup import coloured_names, colours, lookup_attributes, 
 from nacreous.formats.materialx_graph import FilmGraph, document
 from nacreous.formats.openexr import write_part
 from nacreous.formats.spec_axes import spec_axes
+from nacreous.formats.specular import check_specular
 from nacreous.optics.surface import MIN_ALPHA
 from nacreous.tables.digest import array_bytes
+from nacreous.tables.measured.surface import check_rgb
 from nacreous.tables.spec import Spec, surface_of
 from nacreous.tables.table import Table
 
@@ -52,7 +54,9 @@ _ADVICE = "the format exr holds it; or leave delta_e out, and give table axes as
 
 
 def check(spec: Spec) -> None:
-    """Refuse a spec whose axes are not evenly spaced; raises `SpecError`."""
+    """Refuse a spec of uneven axes, or of what its document would lose; raises `SpecError`."""
+    check_rgb(spec, "materialx")
+    check_specular(spec, "materialx")
     if spec.accuracy.delta_e is not None:
         raise SpecError("accuracy.delta_e", "nothing for materialx, whose axes are even", "one", _ADVICE)
     uneven = _uneven(atlas_of(spec.table.quantity, spec_axes(spec)))

@@ -24,6 +24,7 @@ anisotropic surfaces, and a roughness below 0.05, whose lobe is narrower than th
 48 MB.
 """
 
+import os
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -110,7 +111,10 @@ def _blocks(file: BinaryIO, line: bytes) -> Iterator[tuple[str, NDArray[np.float
         kind, theta, phi = struct.unpack("<3I", file.read(12))
         if kind != _RGB:
             raise ValueError("its values are no colours")
-        data = file.read(theta * theta * phi * 12)
+        size = theta * theta * phi * 12
+        if size > os.fstat(file.fileno()).st_size - file.tell():
+            raise ValueError("it ends within its data")
+        data = file.read(size)
         yield names[line], np.frombuffer(data, "<f4").reshape(theta, theta, phi, 3)
         line = file.readline()
 

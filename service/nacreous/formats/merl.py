@@ -99,9 +99,14 @@ def read(path: Path) -> Contents:
 def _carried(planes: NDArray[np.float64]) -> str:
     """Return the text that `_carry` put there."""
     free = planes[np.broadcast_to(~reached(), _SHAPE)]
-    numbers = np.clip((-1 - free) * _UNIT, 0, _UNIT - 1).astype("<u8")
-    words = numbers[1:, None].view(np.uint8)[:, :_BYTES]
-    return words.tobytes()[: int(numbers[0])].decode("ascii")
+    if not ((free > -2) & (free <= -1)).all():  # False for NaN, too
+        raise ValueError("bins that no light reaches have values")
+    numbers = ((-1 - free) * _UNIT).astype("<u8")
+    words = numbers[1:, None].view(np.uint8)[:, :_BYTES].tobytes()
+    length = int(numbers[0])
+    if words[length:].strip(b"\0"):
+        raise ValueError("bins that no light reaches have values")
+    return words[:length].decode("ascii")
 
 
 def check(spec: Spec) -> None:

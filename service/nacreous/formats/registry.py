@@ -40,7 +40,17 @@ from nacreous.tables.tabulate import tabulate_table
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["FORMATS", "Format", "check_holds", "find_format", "format_of", "parts_of", "sampled_for", "write"]
+__all__ = [
+    "FORMATS",
+    "Format",
+    "check_holds",
+    "check_name",
+    "find_format",
+    "format_of",
+    "parts_of",
+    "sampled_for",
+    "write",
+]
 
 _COLOUR = frozenset({Part.COLOUR})
 _SPECTRUM = frozenset({Part.SPECTRUM})
@@ -67,8 +77,6 @@ class Format:
     needs : frozenset of Part
         Without which there is no such file.
     media_type : str
-    advice : str
-        For whom it is, in one line.
     write : callable
         Writes a table to a path, all or nothing, and returns every file; raises `FileFormatError`.
     read : callable
@@ -86,7 +94,6 @@ class Format:
     holds: frozenset[Part]
     needs: frozenset[Part]
     media_type: str
-    advice: str
     write: Callable[[Table, Path], tuple[Path, ...]]
     read: Callable[[Path], Contents]
     quantities: frozenset[str] = frozenset(LAYOUTS)
@@ -101,7 +108,6 @@ _ALL = (
         _COLOUR,
         _COLOUR,
         "image/x-exr",
-        "lookup texture for any renderer: linear colour, float32",
         exr.write,
         exr.read,
     ),
@@ -111,7 +117,6 @@ _ALL = (
         _BOTH,
         _SPECTRUM,
         "image/x-exr",
-        "spectra for spectral renderers; more channels than Blender can load",
         spectral_exr.write,
         spectral_exr.read,
         quantities=spectral_exr.QUANTITIES,
@@ -122,7 +127,6 @@ _ALL = (
         _BOTH,
         _SPECTRUM,
         "application/x-npz",
-        "every array of the table for NumPy",
         npz.write,
         npz.read,
     ),
@@ -132,7 +136,6 @@ _ALL = (
         _BOTH,
         _SPECTRUM,
         "application/x-netcdf",
-        "the table with units for xarray and other scientific programs",
         netcdf.write,
         netcdf.read,
     ),
@@ -142,7 +145,6 @@ _ALL = (
         _SPECTRUM,
         _SPECTRUM,
         "text/csv",
-        "the spectra, one row a sample, for spreadsheets",
         csv.write,
         csv.read,
         check=csv.check,
@@ -153,7 +155,6 @@ _ALL = (
         _COLOUR,
         _COLOUR,
         "image/png",
-        "a picture of the lookup texture to look at, 8-bit sRGB",
         png.write,
         png.read,
     ),
@@ -163,7 +164,6 @@ _ALL = (
         _NOTHING,
         _NOTHING,
         "application/octet-stream",
-        "measured material with spectra for Mitsuba 3 and pbrt-v4, reflection alone",
         rgl.write,
         rgl.read,
         quantities=_BSDF,
@@ -176,7 +176,6 @@ _ALL = (
         _NOTHING,
         _NOTHING,
         "application/octet-stream",
-        "measured material in RGB for Mitsuba 3 and Falcor, reflection alone",
         rgl.write_colours,
         rgl.read_colours,
         quantities=_BSDF,
@@ -189,7 +188,6 @@ _ALL = (
         _NOTHING,
         _NOTHING,
         "application/octet-stream",
-        "isotropic bsdf in RGB as the MERL database has it, reflection alone",
         merl.write,
         merl.read,
         quantities=_BSDF,
@@ -202,7 +200,6 @@ _ALL = (
         _NOTHING,
         _NOTHING,
         "application/octet-stream",
-        "isotropic bsdf in RGB for hosts of MDL, transmission included",
         mbsdf.write,
         mbsdf.read,
         quantities=_BSDF,
@@ -215,7 +212,6 @@ _ALL = (
         _NOTHING,
         _NOTHING,
         "application/octet-stream",
-        "Mueller matrices at five wavelengths for Mitsuba 3, reflection alone",
         mueller.write,
         mueller.read,
         quantities=_BSDF,
@@ -228,7 +224,6 @@ _ALL = (
         _BOTH,
         _SPECTRUM,
         "application/zip",
-        "the table with units as a zipped Zarr 3 group, for xarray and dask",
         zarr.write,
         zarr.read,
     ),
@@ -238,7 +233,6 @@ _ALL = (
         _COLOUR,
         _COLOUR,
         "application/mtlx+xml",
-        "a material for Maya, Houdini and USD that reads the lookup texture beside it",
         materialx.write,
         materialx.read,
         quantities=materialx.QUANTITIES,
@@ -250,7 +244,6 @@ _ALL = (
         _COLOUR,
         _COLOUR,
         "model/gltf+json",
-        "the nearest film that glTF and three.js can show, and how far off it is",
         gltf.write,
         gltf.read,
         quantities=gltf.QUANTITIES,
@@ -280,6 +273,15 @@ def format_of(path: Path) -> Format:
     return max(fitting, key=lambda entry: len(entry.suffix))
 
 
+def check_name(chosen: Format, path: Path) -> None:
+    """Refuse a name of another format's files, such as film.spectral.exr for exr; raises `SpecError`."""
+    claimed = [entry for entry in _ALL if path.name.lower().endswith(entry.suffix)]
+    longest = max(claimed, key=lambda entry: len(entry.suffix), default=chosen)
+    if longest is not chosen and chosen in claimed:
+        expected = f"a name that is not one of format {longest.name}, for a file of format {chosen.name}"
+        raise SpecError("", expected, shown(path.name), f"leave {longest.suffix} out of the name")
+
+
 def check_holds(chosen: Format, spec: Spec) -> None:
     """Refuse a format that cannot hold the table of `spec`; raises `SpecError` with those that can."""
     quantity = spec.table.quantity
@@ -287,7 +289,7 @@ def check_holds(chosen: Format, spec: Spec) -> None:
         able = ", ".join(entry.name for entry in _ALL if quantity in entry.quantities)
         held = " or ".join(f'"{name}"' for name in sorted(chosen.quantities))
         remedy = f"{chosen.name} is for table.quantity = {held}"
-        raise SpecError("format", f"one that holds a {quantity} table ({able})", f'"{chosen.name}"', remedy)
+        raise SpecError("format", f"one that holds {quantity} tables ({able})", f'"{chosen.name}"', remedy)
     chosen.check(spec)
 
 
@@ -339,6 +341,7 @@ def write(
     chosen = format_of(target) if format is None else find_format(format)
     given = table if isinstance(table, Table) else Table.from_xarray(table)
     check_holds(chosen, given.spec)
+    check_name(chosen, target)
     return chosen.write(sampled_for(chosen, given), target)
 
 

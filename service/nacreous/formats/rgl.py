@@ -22,8 +22,10 @@ field               shape                  meaning
 Facets and directions lie on the square by theta = u^2 pi / 2 along its last axis and phi = (2 u - 1) pi along
 the one before. `nacreous.tables.measured.rgl` derives the tables. They hold reflected light alone, on one
 side, of one roughness: what a spec transmits is refused unless it gives it up (`table.transmission`), and so
-are roughnesses below 0.02, whose lobes are narrower than the grid. Files are of 1 to 20 MB, up to 40 of an
-anisotropic surface; the certificate states the error that a reader has.
+are roughnesses below 0.02, whose lobes are narrower than the grid. Readers take the colours for their own
+space, which is Rec.709 where nobody has changed it. Files of 81 wavelengths are of 1 to 20 MB, up to 40 of an
+anisotropic surface; more wavelengths take more. The certificate states the error that a reader has, for light
+from up to 75 degrees: beyond, S falls off faster than any grid follows.
 """
 
 from collections.abc import Mapping
@@ -108,7 +110,7 @@ def check(spec: Spec) -> None:
 
 
 def check_colours(spec: Spec) -> None:
-    """Refuse a spec whose meaning the file would lose, or whose colours a renderer would take for Rec.709."""
+    """Refuse a spec whose meaning the file would lose, or whose colours are no red, green and blue."""
     _check(spec, "rgl-rgb")
     check_rgb(spec, "rgl-rgb")
 

@@ -10,7 +10,7 @@ the rest; ``nacreous:checksum`` is over everything else.
 """
 
 import struct
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -61,10 +61,18 @@ def write_tensors(path: Path, fields: Mapping[str, NDArray[Any]], provenance: Ma
         for name, values in everything.items()
     }
     with replacing(path) as (temporary,), temporary.open("xb") as file:
-        file.write(_head(stored))
-        for values in stored.values():
-            file.write(b"\0" * (-file.tell() % _ALIGNMENT))
-            file.write(values.data)
+        file.writelines(_encoded(stored))
+
+
+def _encoded(stored: Mapping[str, NDArray[Any]]) -> Iterator[bytes | memoryview]:
+    """Yield a file's bytes, piece by piece."""
+    head = _head(stored)
+    yield head
+    at = len(head)
+    for values in stored.values():
+        yield b"\0" * (-at % _ALIGNMENT)
+        yield values.data
+        at += -at % _ALIGNMENT + values.nbytes
 
 
 def _head(stored: Mapping[str, NDArray[Any]]) -> bytes:
@@ -86,6 +94,8 @@ def read_tensors(path: Path, sampling: Sampling) -> Contents:
     try:
         data = path.read_bytes()
         fields = dict(_field(data, start) for start in _starts(data))
+        if b"".join(_encoded(fields)) != data:
+            raise ValueError("something stands between or after its fields")  # noqa: TRY301 - as the others
     except (OSError, struct.error, ValueError, KeyError, UnicodeDecodeError) as error:
         raise FileFormatError(
             f"expected a tensor file, got one that cannot be read: {reason(error)}"

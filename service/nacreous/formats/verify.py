@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from nacreous.errors import NacreousError, reason
-from nacreous.formats.contents import Contents
+from nacreous.formats.contents import Contents, reading
 from nacreous.formats.registry import format_of
 from nacreous.formats.verify_laws import (
     check_densities,
@@ -87,10 +87,10 @@ def verify(path: str | Path) -> Verification:
         return Verification(file, problems=(f"expected a file, got: {reason(error)}",))
     try:
         chosen = format_of(file)
-        contents = chosen.read(file)
+        with reading(f"a file of format {chosen.name}"), np.errstate(all="ignore"):
+            return _examined(file, chosen.name, checksum, chosen.read(file))
     except NacreousError as error:
         return Verification(file, sha256=checksum, problems=(str(error),))
-    return _examined(file, chosen.name, checksum, contents)
 
 
 def _examined(path: Path, name: str, checksum: str, contents: Contents) -> Verification:

@@ -20,6 +20,8 @@ FloatArray = NDArray[np.float64]
 
 STATED_DEG = (0.0, 45.0, 70.0)
 """Angles of incidence at which a fit says how far off it is."""
+FEWEST_COSINES = 9
+"""Cosines between which linear colours of a thin film are within 1e-2 of its own."""
 FITTED_DEG = tuple(np.arange(0.0, 76.0, 5.0).tolist())
 """Angles that a fit minimises the colour differences over; beyond them every surface turns white."""
 
@@ -104,3 +106,6 @@ def check_fittable(spec: Spec) -> None:
         remedy = "table.cos_theta = 64 has all angles"
         expected = f"cosines from {np.cos(np.radians(FITTED_DEG[-1])):.3f} or less to 1, for a fit"
         raise SpecError("table.cos_theta", expected, f"{cosines[0]:g} to {cosines[-1]:g}", remedy)
+    if cosines.size < FEWEST_COSINES:
+        expected = f"at least {FEWEST_COSINES} cosines, between which the fit takes its colours from"
+        raise SpecError("table.cos_theta", expected, f"{cosines.size}", "table.cos_theta = 64 is enough")

@@ -4,8 +4,9 @@ Readers interpolate along paths of their own, so that no cell of directions has 
 drawn instead, always the same: along the lobe, as a renderer samples it, and all over the hemisphere.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from nacreous.tables.figures import Figures
 from nacreous.tables.measured.rgl_grid import unit_vectors
 from nacreous.tables.measured.surface import Shades
 
-__all__ = ["MbsdfCertificate", "MeasuredCertificate", "certify", "certify_transmission"]
+__all__ = ["MbsdfCertificate", "MeasuredCertificate", "certify", "certify_transmission", "shortfall"]
 
 FloatArray = NDArray[np.float64]
 
@@ -24,6 +25,8 @@ _PAIRS, _CANDIDATES = 2048, 8
 """Pairs of each kind, and how many are drawn for one that is kept."""
 _STEEPEST = np.radians(75.0)
 """Angle of incidence up to which is compared."""
+NOTICED_MEDIAN, NOTICED_ENERGY = 0.05, 0.01
+"""Errors of f along the lobe, and of all the light there, that are seen in a picture."""
 _DARK = 1e-6
 """Part of the largest f cos_o below which nothing is seen, and nothing compared."""
 
@@ -97,6 +100,18 @@ def certify_transmission(
         **asdict(reflected),
         transmission_error_mean=float(np.abs(got - f).sum() / total),
         transmission_energy_error=float((got - f).sum() / total),
+    )
+
+
+def shortfall(certificate: Mapping[str, Any]) -> str:
+    """Say what a reader will notice of a file's errors; empty where they are small, or of other tables."""
+    median, energy = certificate.get("lobe_error_median", 0.0), certificate.get("lobe_energy_error", 0.0)
+    if median <= NOTICED_MEDIAN and abs(energy) <= NOTICED_ENERGY:
+        return ""
+    return (
+        f"the grid that readers fix is too coarse for this film or its lobe: f is off by {median:.1%} "
+        f"(median along the lobe), all the light there by {energy:+.1%}; a fresnel texture with the "
+        "renderer's own facets follows it"
     )
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.opencl.bsdf import Pairs
+from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.tiles import Observer
@@ -154,6 +155,7 @@ def _is_fine(certificate: MbsdfCertificate) -> bool:
 
 
 def _tabulated(solver: BsdfSolver, shades: Colours, side: Side, bins: int) -> MbsdfTable:
+    require(f"an mbsdf block of {bins} x {bins} x {2 * bins} bins", 30 * 8 * 2 * bins**3)
     theta, phi = _middles(bins) * (np.pi / 2), _middles(2 * bins) * np.pi
     grid = DirectionGrid(np.zeros(1, np.int32), np.zeros(1), theta, theta, phi)
     f = solver.colours(grid.pairs(side), side, shades.colouring).reshape(bins, bins, 2 * bins, shades.count)

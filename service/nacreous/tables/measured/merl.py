@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.opencl.bsdf import Pairs
+from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
 from nacreous.opencl.tiles import Observer
 from nacreous.tables.albedo.solver import check_albedo
@@ -96,6 +97,7 @@ def reached() -> NDArray[np.bool_]:
 
 def _values(shades: Colours, solver: BsdfSolver, observer: Observer | None) -> NDArray[np.float32]:
     """Return the values in the middles of the bins, (90, 90, 180, 3), 0 in those that no light reaches."""
+    require("a merl file's bins", 30 * 8 * int(np.prod(BINS)))
     inside = reached().ravel()
     middles = HalfDifference.grid(*_middles())
     seen = HalfDifference(middles.theta_h[inside], middles.theta_d[inside], middles.phi_d[inside])

@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 
 from nacreous.errors import SpecError
 from nacreous.opencl.bsdf import BsdfProblem, Pairs, bsdf_spectra
+from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
 from nacreous.opencl.precision import Precision
@@ -165,6 +166,10 @@ def tabulated(
     solver: BsdfSolver, counts: tuple[int, int, int], nm: FloatArray, observer: Observer | None
 ) -> MuellerTable:
     """Compute a table with so many nodes of phi_d, theta_d and theta_h."""
+    require(
+        f"Mueller matrices at {' x '.join(map(str, counts))} nodes",
+        (8 + 4) * 16 * nm.size * int(np.prod(counts)),
+    )
     phi_d, theta_d = np.linspace(-np.pi, np.pi, counts[0]), np.linspace(0, np.pi / 2, counts[1])
     theta_h = _lobe_nodes(solver, counts[2])
     at = HalfDifference.grid(theta_h, theta_d, phi_d).above()
