@@ -138,9 +138,9 @@ def _extras(target: FitTarget, fit: GltfFit) -> dict[str, Any]:
 
 
 def _verdict(fit: GltfFit) -> str:
-    angle = max(fit.delta_e, key=lambda key: fit.delta_e[key])
-    worst = fit.delta_e[angle]
-    figure = f"CIEDE2000 is {worst:.1f} at {angle:g} degrees, the worst of 0, 45 and 70"
+    worst = max(fit.delta_e_max, *fit.delta_e.values())
+    stated = ", ".join(f"{value:.1f} at {angle:g}" for angle, value in fit.delta_e.items())
+    figure = f"CIEDE2000 is {worst:.1f} at worst from 0 to 75 degrees, {stated}"
     if worst <= _NEAR:
         return f"The formula of glTF shows this film: {figure}."
     if worst <= _VISIBLE:
