@@ -111,14 +111,16 @@ def check_errors(got: FloatArray, expected: FloatArray, slack: float) -> None:
 
 @pytest.mark.parametrize("surface", ["narrow", "ggx", "rough", "ashikhmin-shirley"])
 def test_mitsuba_reads_spectra_off_the_lobe(surface: str, folder: Path, device: Device) -> None:
-    """Between any two directions a lobe is a thousand times fainter, and within 1 % all the same."""
+    """Between any two directions a lobe is a thousand times fainter, and as exact: nine of ten within 2 %."""
     mitsuba = use("llvm_ad_spectral")
     bsdf = mitsuba.load_dict({"type": "measured", "filename": str(written(surface, FormatName.RGL, folder))})
     i, o, nm = random_incoming(5000, 1), random_diffuse(5000, 2), np.array([420.0, 500.0, 585.0, 650.0])
     expected = bsdf_solver(device, measured_spec(surface)).reflection(0, i, o, nm) * o[:, 2:]
     got = spectral_values(bsdf, i, o, nm)
     seen = expected > 1e-6 * expected.max()
-    assert np.median(np.abs(got[seen] / expected[seen] - 1)) <= 1e-2
+    error = np.abs(got[seen] / expected[seen] - 1)
+    assert np.median(error) <= MEDIAN
+    assert np.quantile(error, 0.9) <= 2e-2
 
 
 @pytest.mark.parametrize("surface", ["ggx", "ashikhmin-shirley", "anisotropic"])

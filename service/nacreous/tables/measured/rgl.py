@@ -60,6 +60,8 @@ MEDIAN_ERROR, P90_ERROR, ENERGY_ERROR = 1e-3, 6e-3, 5e-4
 """Relative errors of f along a lobe, and of all the light in it, at which a grid is fine enough.
 
 Twice that for an anisotropic surface."""
+WIDE_MEDIAN_ERROR, WIDE_P90_ERROR = 2.5e-3, 1.5e-2
+"""The same of f all over the hemisphere, in the middle between wavelengths."""
 _MOST_BYTES = {False: 20 * 2**20, True: 40 * 2**20}
 """Size beyond which no finer grid is tried: renderers keep the whole file in memory."""
 _LEAST_LUMINANCE = 1e-4
@@ -125,11 +127,13 @@ def _settled(
         if _is_fine(certificate, 2 if anisotropic else 1):
             return table, certificate
         tried.append((table, certificate))
-    return min(tried, key=_p90)
+    return min(tried, key=_worst)
 
 
-def _p90(tried: tuple[RglTable, MeasuredCertificate]) -> float:
-    return tried[1].grid_error_p90
+def _worst(tried: tuple[RglTable, MeasuredCertificate]) -> float:
+    """Return by how much the error that misses its target most does so."""
+    certificate = tried[1]
+    return max(certificate.grid_error_p90 / P90_ERROR, certificate.wide_error_p90 / WIDE_P90_ERROR)
 
 
 def _is_fine(certificate: MeasuredCertificate, slack: float) -> bool:
@@ -137,6 +141,8 @@ def _is_fine(certificate: MeasuredCertificate, slack: float) -> bool:
         certificate.grid_error_median <= slack * MEDIAN_ERROR
         and certificate.grid_error_p90 <= slack * P90_ERROR
         and abs(certificate.lobe_energy_error) <= slack * ENERGY_ERROR
+        and certificate.wide_error_median <= slack * WIDE_MEDIAN_ERROR
+        and certificate.wide_error_p90 <= slack * WIDE_P90_ERROR
     )
 
 
