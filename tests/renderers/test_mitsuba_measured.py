@@ -30,7 +30,7 @@ from reference_tensor_file import MeasuredMaterial
 
 MEDIAN, P90, MEAN = 3e-3, 1.5e-2, 2e-3
 """Relative errors that a renderer may make of an isotropic file; twice that of an anisotropic one."""
-LARGEST_BYTES = 20 * 2**20
+LARGEST_BYTES = 20 * 10**6
 BLOCKS, PAIRS = 10, 500
 """Pairs of directions at four random wavelengths, several times over: 20,000 values."""
 

@@ -62,7 +62,7 @@ MEDIAN_ERROR, P90_ERROR, ENERGY_ERROR = 1e-3, 6e-3, 5e-4
 Twice that for an anisotropic surface."""
 WIDE_MEDIAN_ERROR, WIDE_P90_ERROR = 2.5e-3, 1.5e-2
 """The same of f all over the hemisphere, in the middle between wavelengths."""
-_MOST_BYTES = {False: 20 * 2**20, True: 40 * 2**20}
+_MOST_BYTES = {False: 20 * 10**6, True: 40 * 10**6}
 """Size beyond which no finer grid is tried: renderers keep the whole file in memory."""
 _LEAST_LUMINANCE = 1e-4
 """Least luminance, as a part of the mean of its slice: what has none is never sampled."""

@@ -83,7 +83,7 @@ LADDERS: dict[bool, tuple[RglGrid, ...]] = {
     ),
     True: tuple(
         RglGrid(azimuths, tilts, samples, **_ANISOTROPIC)
-        for azimuths, tilts, samples in ((17, 16, 14), (21, 18, 17), (25, 20, 20), (25, 20, 24), (33, 24, 32))
+        for azimuths, tilts, samples in ((17, 16, 14), (21, 17, 17), (25, 20, 20), (25, 20, 24), (33, 24, 32))
     ),
 }
 """Grids to choose from, small ones first, for isotropic (False) and anisotropic (True) surfaces."""
