@@ -68,9 +68,11 @@ _LEAST_LUMINANCE = 1e-4
 """Least luminance, as a part of the mean of its slice: what has none is never sampled."""
 _INSIDE = 1e-6
 """How far from the sides of the square its outermost samples are warped: the warp is steep at its sides."""
-_HORIZON = 0.3
-"""How far from the side where facets reflect along the horizon its samples are taken, in cells: S falls to 0
-there so fast that a line to it would be too low all over the cell."""
+_HORIZON = 0.1
+"""How far from the side where facets reflect along the horizon its samples are taken, in cells.
+
+S falls to 0 there so fast that a line to it would be too low all over the cell, and one from further inside
+too high beside the horizon."""
 
 
 def compute_rgl_spectra(device: Device, spec: Spec, observer: Observer | None) -> Computed:
@@ -133,7 +135,11 @@ def _settled(
 def _worst(tried: tuple[RglTable, MeasuredCertificate]) -> float:
     """Return by how much the error that misses its target most does so."""
     certificate = tried[1]
-    return max(certificate.grid_error_p90 / P90_ERROR, certificate.wide_error_p90 / WIDE_P90_ERROR)
+    return max(
+        certificate.grid_error_p90 / P90_ERROR,
+        certificate.wide_error_p90 / WIDE_P90_ERROR,
+        abs(certificate.lobe_energy_error) / ENERGY_ERROR,
+    )
 
 
 def _is_fine(certificate: MeasuredCertificate, slack: float) -> bool:

@@ -79,7 +79,7 @@ _ANISOTROPIC = {"rows": 48, "columns": 64, "facet_azimuths": 256, "facet_tilts":
 LADDERS: dict[bool, tuple[RglGrid, ...]] = {
     False: tuple(
         RglGrid(1, tilts, samples, **_ISOTROPIC)
-        for tilts, samples in ((24, 24), (32, 32), (48, 32), (28, 44), (48, 48))
+        for tilts, samples in ((24, 24), (32, 32), (48, 32), (36, 38), (28, 44), (48, 48))
     ),
     True: tuple(
         RglGrid(azimuths, tilts, samples, **_ANISOTROPIC)
