@@ -21,7 +21,10 @@ FloatArray = NDArray[np.float64]
 STATED_DEG = (0.0, 45.0, 70.0)
 """Angles of incidence at which a fit says how far off it is."""
 FEWEST_COSINES = 9
-"""Cosines between which linear colours of a thin film are within 1e-2 of its own."""
+"""Cosines that a fit takes its colours between, at least.
+
+Over six presets, linear colours interpolated between 9 of them are within 2e-2 of the film's, between 17
+within 5e-3, and between 33 within 6e-4."""
 FITTED_DEG = tuple(np.arange(0.0, 76.0, 5.0).tolist())
 """Angles that a fit minimises the colour differences over; beyond them every surface turns white."""
 
