@@ -5,11 +5,16 @@ These errors know nothing of HTTP or of exit codes: the command line and the ser
 
 __all__ = [
     "BudgetError",
+    "BusyError",
+    "DeadlineError",
     "DeviceError",
     "FileFormatError",
+    "MissingError",
     "NacreousError",
     "NumericalError",
     "SpecError",
+    "StoreError",
+    "UnavailableError",
     "reason",
 ]
 
@@ -70,6 +75,48 @@ class NumericalError(NacreousError):
 
 class FileFormatError(NacreousError):
     """A file cannot be read, or a table cannot be written in the format asked for."""
+
+
+class MissingError(NacreousError):
+    """What was asked for is not there: a table, a job, or a file that the table has no content for."""
+
+
+class StoreError(NacreousError):
+    """The store cannot be read or written; what is in it is as it was."""
+
+
+class BusyError(NacreousError):
+    """Too much is waiting already; nothing has been begun.
+
+    Parameters
+    ----------
+    message : str
+    retry_after_s : float
+        When to ask again.
+    """
+
+    def __init__(self, message: str, retry_after_s: float) -> None:
+        self.retry_after_s = retry_after_s
+        super().__init__(message)
+
+
+class UnavailableError(NacreousError):
+    """The engine cannot compute this just now: it starts, has lost its worker twice, or is stopping.
+
+    Parameters
+    ----------
+    message : str
+    retry_after_s : float
+        When to ask again.
+    """
+
+    def __init__(self, message: str, retry_after_s: float) -> None:
+        self.retry_after_s = retry_after_s
+        super().__init__(message)
+
+
+class DeadlineError(NacreousError):
+    """A table took longer than it may; what computed it has been ended, and nothing is stored."""
 
 
 def reason(error: Exception) -> str:

@@ -70,7 +70,7 @@ def test_csv_says_where_it_comes_from(table: Table, tmp_path: Path) -> None:
     comments = [line for line in (tmp_path / "film.csv").read_text("utf-8").splitlines() if line[0] == "#"]
     named = dict(line.removeprefix("# nacreous:").split(" = ", 1) for line in comments)
     assert named["id"] == table.id
-    assert json.loads(named["spec"])["name"] == table.spec.name
+    assert json.loads(named["spec"])["stack"] == table.spec.model_dump(mode="json")["stack"]
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".nc", ".csv"])

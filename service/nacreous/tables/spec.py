@@ -29,6 +29,7 @@ from nacreous.tables.spec_document import Document, Syntax, override, parse, rea
 from nacreous.tables.table_spec import TableSpec
 
 __all__ = [
+    "LABELS",
     "AccuracySpec",
     "BsdfAngles",
     "ColourSpec",
@@ -56,7 +57,7 @@ Label = Annotated[str, Field(max_length=2000), AfterValidator(_check_printable)]
 ColourScienceName = Annotated[str, Field(min_length=1, max_length=100)]
 
 LABELS = ("name", "description", "source")
-"""The fields of a spec that only a person reads; they are not part of a table's id."""
+"""The fields of a spec that only a person reads; they are part neither of a table's id nor of its files."""
 
 _ROUNDING = 1e-9
 """Relative slack at the ends of the roughness, which a ratio and a root are computed for."""

@@ -18,7 +18,7 @@ from nacreous.tables.measured.merl import compute_merl
 from nacreous.tables.measured.mueller import compute_mueller
 from nacreous.tables.measured.rgl import compute_rgl_colours, compute_rgl_spectra
 from nacreous.tables.sampling import Sampling
-from nacreous.tables.spec import Spec
+from nacreous.tables.spec import LABELS, Spec
 from nacreous.tables.table import Part, Table
 
 __all__ = ["Observer", "tabulate_table"]
@@ -80,7 +80,7 @@ def _provenance(spec: Spec, device: Device, computed: Computed) -> dict[str, str
     return {
         "id": table_id(spec),
         "version": version("nacreous"),
-        "spec": spec.model_dump_json(),
+        "spec": spec.model_dump_json(exclude=set(LABELS)),  # the same id is the same bytes
         "certificate": computed.certificate.to_json(),
         "precision": computed.precision.name.lower(),
         "device": f"{device.info.platform}, {device.info.name}, {device.info.version}",

@@ -1,0 +1,1 @@
+"""Finished files, kept by the id of their table on any fsspec URL."""

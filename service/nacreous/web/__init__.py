@@ -1,0 +1,1 @@
+"""The HTTP service, and what it is made of."""
