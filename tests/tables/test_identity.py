@@ -6,6 +6,7 @@ from nacreous.opencl import sources
 from nacreous.tables.identity import table_id
 from nacreous.tables.presets import preset
 from nacreous.tables.spec import Spec
+from nacreous.tables.tabulate import tabulate_table
 
 FILM = {
     "stack": {
@@ -23,6 +24,14 @@ def _id(**sections: object) -> str:
 def test_labels_do_not_matter() -> None:
     """Name, description and source are for people."""
     assert _id() == _id(name="a", description="b", source="c")
+
+
+def test_the_same_id_is_the_same_table_to_the_last_byte() -> None:
+    """Labels are in no file: whoever asks for a table by its id must get the same bytes as anyone else."""
+    named = Spec.model_validate(FILM | {"name": "a", "description": "b", "source": "c"})
+    bare = Spec.model_validate(FILM)
+    first, second = (tabulate_table(spec, ()).provenance for spec in (named, bare))
+    assert dict(first) == dict(second)
 
 
 @pytest.mark.parametrize(

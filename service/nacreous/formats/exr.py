@@ -16,7 +16,7 @@ below 0, and shares above 1, are colours outside of the space's gamut: they belo
 ``nacreous:tiles.y``      the same of tiles one below the other, and rows of each
 ``nacreous:colour.…``     ``space``, ``illuminant`` and ``observer``
 ``nacreous:id``           SHA-256 over everything that decides the values
-``nacreous:spec``         the spec, complete, as JSON
+``nacreous:spec``         the spec, complete but for its labels, as JSON
 ``nacreous:certificate``  the errors measured between the texels, as JSON
 ``nacreous:checksum``     SHA-256 over the channels and all other attributes of Nacreous
 ``nacreous:version``      of Nacreous; ``precision``, ``device`` and ``kernels`` say how it was computed
