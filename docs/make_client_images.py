@@ -69,7 +69,15 @@ MATERIALX_FILMS = (
 )
 THREE_PRESETS = ("anodised-titanium", "morpho", "nacre", "oil-on-water", "beetle", "soap-bubble")
 BLENDER_PRESETS = ("soap-bubble", "anodised-titanium", "beetle")
-MITSUBA_ALPHAS = {"soap-bubble": "0", "anodised-titanium": "0.15", "coated-lens": "0"}
+COATED_GLASS = """
+[stack]
+incident = "air"
+substrate = { n = 1.5 }
+layers = [{ material = { n = 2.0 }, thickness_nm = 260 }]
+[table]
+thickness_scale = { start = 0.3, stop = 0.8, count = 51 }
+"""
+"""A bright film on glass; that of a coated lens is too faint to see here."""
 
 
 def main(names: list[str]) -> None:
@@ -182,20 +190,24 @@ def blender(folder: Path) -> Image.Image:
     for preset in BLENDER_PRESETS:
         texture(folder, preset)
     path = folder / "films.png"
-    options = ("--tables", folder, "--output", path, "--width", "520")
-    run_blender(CLIENTS / "blender" / "example.py", folder, *options)
-    return Image.open(path).convert("RGB")
+    look = ("--width", str(OVERSAMPLING * 480), "--samples", "64")
+    run_blender(CLIENTS / "blender" / "example.py", folder, "--tables", folder, "--output", path, *look)
+    return smaller(path)
 
 
 def mitsuba(folder: Path) -> Image.Image:
     """Render clients/mitsuba/scene.py."""
     if fault := variant_fault("llvm_ad_rgb"):
         pytest.skip(fault)
-    tables = [texture(folder, preset) for preset in MITSUBA_ALPHAS]
+    (folder / "coated-glass.toml").write_text(COATED_GLASS)
+    films = [texture(folder, preset) for preset in ("soap-bubble", "anodised-titanium")]
+    run("tabulate", str(folder / "coated-glass.toml"), "-o", str(folder))
+    tables = [*films, folder / "coated-glass.exr"]
     path = folder / "spheres.png"
-    look = ["--alpha", *MITSUBA_ALPHAS.values(), "--thickness-scale", "0.3", "0.8", "--height", "176"]
-    finished(sys.executable, CLIENTS / "mitsuba" / "scene.py", *tables, *look, "-o", path)
-    return Image.open(path).convert("RGB")
+    look = ["--alpha", "0", "0.15", "0", "--thickness-scale", "0.3", "0.8"]
+    size = ["--height", str(OVERSAMPLING * 176), "--samples", "192"]
+    finished(sys.executable, CLIENTS / "mitsuba" / "scene.py", *tables, *look, *size, "-o", path)
+    return smaller(path)
 
 
 def threejs(folder: Path) -> Image.Image:
@@ -211,11 +223,17 @@ def threejs(folder: Path) -> Image.Image:
         texture(package / "example" / "public" / "tables", preset)
     for command in (("ci", "--no-audit", "--no-fund"), ("run", "build:example")):
         finished(npm, "--prefix", package, *command)
-    with chromium() as browser, open_page(browser, package / "example" / "dist", "index.html", 560) as opened:
+    site = package / "example" / "dist"
+    with chromium() as browser, open_page(browser, site, "index.html", OVERSAMPLING * 560) as opened:
         opened.page.wait_for_selector("body[data-state=drawn]")
         opened.page.add_style_tag(content="form { display: none }")
         opened.page.screenshot(path=path)
-    return Image.open(path).convert("RGB")
+    return smaller(path)
+
+
+def smaller(path: Path) -> Image.Image:
+    """Return a picture that was drawn `OVERSAMPLING` times as large as it is wanted."""
+    return Image.open(path).convert("RGB").reduce(OVERSAMPLING)
 
 
 def finished(*command: str | Path) -> None:
