@@ -73,7 +73,7 @@ COATED_GLASS = """
 [stack]
 incident = "air"
 substrate = { n = 1.5 }
-layers = [{ material = { n = 2.0 }, thickness_nm = 260 }]
+layers = [{ material = { n = 2.3 }, thickness_nm = 420 }]
 [table]
 thickness_scale = { start = 0.3, stop = 0.8, count = 51 }
 """
@@ -205,7 +205,7 @@ def mitsuba(folder: Path) -> Image.Image:
     tables = [*films, folder / "coated-glass.exr"]
     path = folder / "spheres.png"
     look = ["--alpha", "0", "0.15", "0", "--thickness-scale", "0.3", "0.8"]
-    size = ["--height", str(OVERSAMPLING * 176), "--samples", "192"]
+    size = ["--height", str(OVERSAMPLING * 160), "--samples", "192"]
     finished(sys.executable, CLIENTS / "mitsuba" / "scene.py", *tables, *look, *size, "-o", path)
     return smaller(path)
 
