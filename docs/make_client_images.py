@@ -190,7 +190,7 @@ def blender(folder: Path) -> Image.Image:
     for preset in BLENDER_PRESETS:
         texture(folder, preset)
     path = folder / "films.png"
-    look = ("--width", str(OVERSAMPLING * 480), "--samples", "64")
+    look = ("--width", str(OVERSAMPLING * 480), "--samples", "16")
     run_blender(CLIENTS / "blender" / "example.py", folder, "--tables", folder, "--output", path, *look)
     return smaller(path)
 
