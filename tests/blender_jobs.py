@@ -15,6 +15,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from mathutils import Vector
 
 MODULE = "bl_ext.user_default.nacreous"
 STRIP_ROWS = 4
@@ -89,11 +90,16 @@ def render_sphere(
 def render_sphere_by_shader(path: str, thickness_scale: float, pixels: int, picture: str) -> None:
     """Render the sphere with the OSL shader's own cosine instead of the group's."""
     scene, group = sphere_in_white(path, "OSL", thickness_scale, pixels)
+    see_by_shader(group)
+    render(scene, picture)
+
+
+def see_by_shader(group: bpy.types.NodeTree) -> None:
+    """Let the OSL shader take the cosine of its own N and I."""
     script = next(node for node in group.nodes if node.type == "SCRIPT")
     cosine = script.inputs["cos_theta"]
     group.links.remove(cosine.links[0])
     cosine.default_value = -1
-    render(scene, picture)
 
 
 def render_sphere_of_closure(
@@ -103,15 +109,74 @@ def render_sphere_of_closure(
     scene, _ = sphere_in_white(path, "OSL", thickness_scale, pixels)
     scene.cycles.samples = samples
     tree = bpy.context.view_layer.objects[0].active_material.node_tree
+    add_closure(tree, closure).inputs["ior"].default_value = ior
+    render(scene, picture)
+
+
+def add_closure(tree: bpy.types.NodeTree, closure: str) -> bpy.types.Node:
+    """Let an OSL shader make the material's surface of R and T."""
     script = tree.nodes.new("ShaderNodeScript")
     script.script = bpy.data.texts.load(closure)
-    script.inputs["ior"].default_value = ior
     film = next(node for node in tree.nodes if node.type == "GROUP")
     for name in set(film.outputs.keys()) & {"R", "T"}:
         tree.links.new(film.outputs[name], script.inputs[name])
     output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
     tree.links.new(script.outputs["surface"], output.inputs["Surface"])
+    return script
+
+
+def render_draining_sphere(
+    path: str,
+    closure: str,
+    thickness_scale: tuple[float, float],
+    roughness: float,
+    surroundings: str,
+    pixels: int,
+    samples: int,
+    picture: str,
+) -> None:
+    """Render a sphere by both OSL shaders; its film changes evenly from its top, y = 1, to its bottom."""
+    scene, group = sphere_in_white(path, "OSL", thickness_scale[0], pixels)
+    see_by_shader(group)
+    scene.cycles.samples = samples
+    tree = bpy.context.view_layer.objects[0].active_material.node_tree
+    add_closure(tree, closure).inputs["roughness"].default_value = roughness
+    drain(tree, *thickness_scale)
+    SURROUNDINGS[surroundings](scene)
     render(scene, picture)
+
+
+def drain(tree: bpy.types.NodeTree, top: float, bottom: float) -> None:
+    """Connect a thickness that goes from y = 1 to y = -1."""
+    place, parts, scale = (
+        tree.nodes.new(f"ShaderNode{name}") for name in ("NewGeometry", "SeparateXYZ", "MapRange")
+    )
+    tree.links.new(place.outputs["Position"], parts.inputs[0])
+    tree.links.new(parts.outputs["Y"], scale.inputs["Value"])
+    for name, value in {"From Min": -1, "From Max": 1, "To Min": bottom, "To Max": top}.items():
+        scale.inputs[name].default_value = value
+    film = next(node for node in tree.nodes if node.type == "GROUP")
+    tree.links.new(scale.outputs["Result"], film.inputs["Thickness Scale"])
+
+
+def stay_white(_: bpy.types.Scene) -> None:
+    """Leave the white world of `sphere_in_white`."""
+
+
+def light_studio(scene: bpy.types.Scene) -> None:
+    """Dim the world, add two soft boxes, and leave out what is behind the sphere."""
+    scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.35
+    scene.render.film_transparent = True
+    scene.cycles.filter_width = 1.5
+    for place, size, watts in (((-4, 5, 4), 4, 700), ((5, -1, 4), 2.5, 250)):
+        lamp = bpy.data.lights.new("soft box", "AREA")
+        lamp.energy, lamp.size = watts, size
+        made = added("soft box", lamp)
+        made.location = place
+        made.rotation_euler = Vector(place).to_track_quat("Z", "Y").to_euler()
+
+
+SURROUNDINGS = {"white": stay_white, "studio": light_studio}
 
 
 def sphere_in_white(

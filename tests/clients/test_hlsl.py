@@ -1,114 +1,88 @@
 """The HLSL of Unreal Engine and Unity, translated by glslang and SPIRV-Cross and run in a browser's WebGL."""
 
-import shutil
-import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import nacreous
-from lut_contract import CONTRACT_SPEC, POINTS, LookupTexture, write_contract_table
-from web_page import WebPage, chromium, open_page
+from hlsl_host import ENGINES, Sphere, draw_sphere, hlsl_page, read_points
+from lut_contract import CONTRACT_SPEC, POINTS, FloatArray, LookupTexture, write_contract_table
+from web_page import WebPage
 
-CLIENTS = Path(__file__).parents[2] / "clients"
-
-
-@dataclass(frozen=True)
-class Engine:
-    """How an engine calls its function and stores a picture: `rows` is the step along the file's rows."""
-
-    file: Path
-    call: str
-    rows: int
-
-
-ENGINES = {
-    # A Custom node's body returns the function's value. Direct3D: the first row in memory is at v = 0.
-    "unreal": Engine(CLIENTS / "unreal" / "NacreousFilm.ush", "colour = NacreousReflectance({});", 1),
-    # Shader Graph calls NAME_float with the outputs behind the inputs. Unity stores the bottom row first.
-    "unity": Engine(CLIENTS / "unity" / "NacreousFilm.hlsl", "NacreousReflectance_float({}, colour);", -1),
-}
-
-NODE = """
-#include "{include}"
-Texture2D Table : register(t0);
-SamplerState TableSampler : register(s0);
-Texture2D Points : register(t1);
-cbuffer Axes : register(b0) {{ float4 CosThetaAxis; float4 ThicknessScaleAxis; }};
-float4 main(float4 position : SV_Position) : SV_Target
-{{
-    float2 place = Points.Load(int3(int(position.x), 0, 0)).xy;
-    float3 colour;
-    {call}
-    return float4(colour, 1.0);
-}}
-"""
-ARGUMENTS = "Table, TableSampler, place.x, place.y, CosThetaAxis.xyz, ThicknessScaleAxis.xyz"
+ROUNDING = {"RGBA32F": 1e-4, "RGBA16F": 5e-4}
+"""Formats that the clients' pages name, and what their texels may add to the mean error, as a share."""
 
 
 @pytest.fixture(scope="module")
 def page() -> Iterator[WebPage]:
     """Open the page that runs fragment shaders."""
-    with chromium() as browser, open_page(browser, Path(__file__).parent, "hlsl_page/index.html") as opened:
+    with hlsl_page() as opened:
         yield opened
 
 
-def translate(engine: Engine, folder: Path) -> str:
-    """GLSL ES 3.00 of a pixel shader that calls the engine's function."""
-    for program, package in (("glslangValidator", "glslang-tools"), ("spirv-cross", "spirv-cross")):
-        if shutil.which(program) is None:
-            pytest.skip(f"{program} is missing: install the package {package}")
-    source, binary, glsl = (folder / f"node.{suffix}" for suffix in ("hlsl", "spv", "glsl"))
-    source.write_text(NODE.format(include=engine.file.name, call=engine.call.format(ARGUMENTS)))
-    hlsl = ["-D", "-V", "-S", "frag", "-e", "main"]
-    _run("glslangValidator", *hlsl, f"-I{engine.file.parent}", source, "-o", binary)
-    _run("spirv-cross", binary, "--version", "300", "--es", "--output", glsl)
-    return glsl.read_text()
-
-
-def _run(*command: object) -> None:
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-def run(
-    page: WebPage, engine: Engine, fragment: str, texture: LookupTexture, points: np.ndarray
-) -> np.ndarray:
-    """Colours of the function at points (P, 2), (P, 3), the texture stored as the engine stores it."""
-    axes = [(*axis["range"], axis["count"], 0) for axis in (texture.axis_x, texture.axis_y)]
-    argument = {
-        "fragment": fragment,
-        "rows": texture.texels[:: engine.rows].tolist(),
-        "points": points.tolist(),
-        "constants": [float(value) for axis in axes for value in axis],
-    }
-    return np.array(page.call("run", argument))
+@pytest.fixture(scope="module")
+def soap(tmp_path_factory: pytest.TempPathFactory) -> LookupTexture:
+    """Return the table of a film in all colours, with as many rows and columns as presets have."""
+    table = nacreous.tabulate(nacreous.preset("soap-bubble"))
+    return LookupTexture.read(nacreous.write(table, tmp_path_factory.mktemp("soap") / "soap.exr")[0])
 
 
 @pytest.mark.parametrize("name", ENGINES)
 @pytest.mark.parametrize("suffix", [".exr", ".transmission.exr"])
 def test_reads_the_contract_table(page: WebPage, name: str, suffix: str, tmp_path: Path) -> None:
     """The function agrees with the lookup of clients/README.md at its points, and beyond the axes."""
-    engine = ENGINES[name]
     texture = LookupTexture.read(write_contract_table(tmp_path).with_suffix(suffix))
     points = np.vstack([POINTS, [(-0.5, 0.2), (1.5, 2.0)]])
-    got = run(page, engine, translate(engine, tmp_path), texture, points)
+    got = read_points(page, ENGINES[name], texture, points, tmp_path)
     np.testing.assert_allclose(got, texture.at(points[:, 0], points[:, 1]), rtol=0, atol=1e-4)
 
 
 @pytest.mark.parametrize("name", ENGINES)
 def test_one_thickness_has_no_upper_and_lower_row(page: WebPage, name: str, tmp_path: Path) -> None:
     """A table of one thickness has two equal rows: any thickness_scale reads the same."""
-    engine = ENGINES[name]
     spec = CONTRACT_SPEC | {"table": CONTRACT_SPEC["table"] | {"thickness_scale": 1}}
     texture = LookupTexture.read(nacreous.write(nacreous.tabulate(spec), tmp_path / "single.exr")[0])
     points = np.array([(0.3, 0.0), (0.3, 1.0), (0.3, 2.0)])
-    got = run(page, engine, translate(engine, tmp_path), texture, points)
+    got = read_points(page, ENGINES[name], texture, points, tmp_path)
     expected = texture.at(np.full(3, 0.3), np.ones(3))
     np.testing.assert_allclose(got, expected, rtol=0, atol=1e-4)
+
+
+@pytest.mark.parametrize("name", ENGINES)
+@pytest.mark.parametrize("texels", ROUNDING)
+def test_a_picture_of_a_draining_film_is_its_table(
+    page: WebPage, soap: LookupTexture, name: str, texels: str, tmp_path: Path
+) -> None:
+    """Each pixel of a mirror in white surroundings has R at its own angle and thickness: mean within 1 %.
+
+    The bound is what float or half texels leave of it, as the clients' pages say.
+    """
+    sphere = Sphere(pixels=96, thickness_scale=(0.05, 1.6))
+    picture = draw_sphere(page, ENGINES[name], soap, sphere, tmp_path, texels=texels)
+    missed_2, cos_theta, height = ray_casts(sphere)
+    assert np.array_equal(picture[..., 3] == 1, missed_2 < 1)
+    inside = missed_2 < 1
+    top, bottom = sphere.thickness_scale
+    expected = soap.at(cos_theta[inside], top + (bottom - top) * (0.5 - 0.5 * height[inside]))
+    error = np.abs(picture[inside, :3] - expected).mean() / expected.mean()
+    assert error <= ROUNDING[texels] < 0.01
+
+
+def ray_casts(sphere: Sphere) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return, of each pixel, how far its ray passes by the centre, squared, and cosine and height of its hit.
+
+    In the triangle of eye, centre and hit, sin theta is the distance of the ray from the centre over the
+    radius, 1, and theta is the sum of the two other angles: that of the ray and that of the hit.
+    """
+    at = ((np.arange(sphere.pixels) + 0.5) / sphere.pixels * 2 - 1) * sphere.half_width / sphere.eye_distance
+    right, up = np.meshgrid(at, -at)
+    slope = np.hypot(right, up)
+    missed_2 = (sphere.eye_distance * np.sin(np.arctan(slope))) ** 2
+    theta = np.arcsin(np.sqrt(np.minimum(missed_2, 1)))
+    height = np.sin(theta - np.arctan(slope)) * up / slope
+    return missed_2, np.cos(theta), height
 
 
 def test_both_engines_share_their_lines() -> None:

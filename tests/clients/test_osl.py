@@ -8,8 +8,10 @@ import pytest
 from blender_process import ROOT, blender_jobs, linear_pixels, packed_add_on, sphere_cosines
 from lut_contract import POINTS, LookupTexture, write_contract_table
 
+CLOSURE = ROOT / "clients" / "osl" / "nacreous_film_surface.osl"
 FILES = {"R": "contract.exr", "T": "contract.transmission.exr"}
 SCALE, PIXELS = 0.83, 48
+TOP, BOTTOM = 0.55, 1.45
 
 
 @pytest.fixture(scope="module")
@@ -27,14 +29,25 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "pixels": PIXELS,
         "picture": str(folder / "sphere.exr"),
     }
-    closure = ROOT / "clients" / "osl" / "nacreous_film_surface.osl"
     closures = [
         sphere
-        | {"job": "render_sphere_of_closure", "closure": str(closure), "ior": 1.5, "samples": samples}
+        | {"job": "render_sphere_of_closure", "closure": str(CLOSURE), "ior": 1.5, "samples": samples}
         | {"path": str(folder / f"{name}.exr"), "picture": str(folder / f"closure {name}.exr")}
         for name, samples in {"opaque": 1, "contract": 64}.items()
     ]
-    jobs = [{"job": "install", "archive": str(packed_add_on(folder))}, *strips, sphere, *closures]
+    draining = {
+        "job": "render_draining_sphere",
+        "path": str(folder / "opaque.exr"),
+        "closure": str(CLOSURE),
+        "thickness_scale": (TOP, BOTTOM),
+        "roughness": 0,
+        "surroundings": "white",
+        "pixels": PIXELS,
+        "samples": 1,
+        "picture": str(folder / "draining.exr"),
+    }
+    install = {"job": "install", "archive": str(packed_add_on(folder))}
+    jobs = [install, *strips, sphere, *closures, draining]
     blender_jobs(jobs, folder)
     return folder
 
@@ -55,6 +68,16 @@ def test_a_sphere_has_the_colour_of_each_angle(picture: str, folder: Path) -> No
     table = LookupTexture.read(folder / "opaque.exr")
     expected = table.at(cos_theta[inside], np.full(inside.sum(), SCALE))
     got = linear_pixels(folder / picture)[inside]
+    assert np.abs(got - expected.clip(min=0)).mean() <= 0.01 * expected.mean()
+
+
+def test_a_draining_film_has_the_colour_of_each_angle_and_thickness(folder: Path) -> None:
+    """Both shaders together, the thickness growing from the top of the sphere: mean within 1 %."""
+    cos_theta, inside = sphere_cosines(PIXELS)
+    down = (np.arange(PIXELS) + 0.5) / PIXELS
+    scale = np.broadcast_to((TOP + (BOTTOM - TOP) * down)[:, None], inside.shape)
+    expected = LookupTexture.read(folder / "opaque.exr").at(cos_theta[inside], scale[inside])
+    got = linear_pixels(folder / "draining.exr")[inside]
     assert np.abs(got - expected.clip(min=0)).mean() <= 0.01 * expected.mean()
 
 
