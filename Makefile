@@ -40,9 +40,10 @@ check: $(VENV)/.group-check
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
 
-docs: $(VENV)/.group-test
+docs: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(BLENDER_VENV)/.bpy
 	$(BIN)/python -m pytest tests/test_documentation.py
 	$(BIN)/python docs/make_images.py
+	PYTHONPATH=tests $(BIN)/python docs/make_client_images.py
 
 bench: $(BENCH_VENV)/.group-$(BENCH_GROUP) $(BENCH_VENV)/.llvm
 	PYTHONPATH=tests $(BENCH_VENV)/bin/python -m bench
