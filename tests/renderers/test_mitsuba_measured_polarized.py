@@ -7,6 +7,7 @@ frame of ours would show, too.
 
 import shutil
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
@@ -36,8 +37,6 @@ VARIANTS = ("scalar_spectral_polarized", "llvm_ad_spectral_polarized")
 WAVELENGTH_NM = np.array([400.0, 480.0, 560.0, 640.0, 720.0])
 SILVER = "main/Ag/Johnson"
 PAIRS = 400
-FILMS = ("ggx", "rough", "diffuse")
-NODES_FROM = {"phi_d": -np.pi, "theta_d": 0.01, "theta_h": 0.01}
 
 
 @pytest.fixture(params=VARIANTS)
@@ -106,7 +105,7 @@ def directions() -> tuple[FloatArray, FloatArray]:
 
 @pytest.mark.parametrize("alpha", [0.05, 0.2, 0.4])
 def test_silver_is_mitsubas_own_conductor(alpha: float, mitsuba: ModuleType, loaded: Loaded) -> None:
-    """All 16 elements at each pair: half within 0.3 % of M00, nine of ten in 2 %, the light within 0.1 %."""
+    """All 16 elements at each pair: half within 0.1 % of M00, nine of ten in 0.5 %, the light within 0.05 %."""
     index = refractive_index(NamedMaterial(name=SILVER), WAVELENGTH_NM)
     i, o = directions()
     nm = WAVELENGTH_NM[:4]
@@ -114,9 +113,9 @@ def test_silver_is_mitsubas_own_conductor(alpha: float, mitsuba: ModuleType, loa
     expected = mueller_values(conductor(alpha, alpha, index, WAVELENGTH_NM), i, o, nm)
     m00 = expected[:, 0, 0]
     error = np.abs(got - expected).max(axis=(1, 2)) / m00
-    assert np.median(error) <= 3e-3
-    assert np.quantile(error, 0.9) <= 2e-2
-    assert abs(got[:, 0, 0].sum() / m00.sum() - 1) <= 1e-3
+    assert np.median(error) <= 1e-3
+    assert np.quantile(error, 0.9) <= 5e-3
+    assert abs(got[:, 0, 0].sum() / m00.sum() - 1) <= 5e-4
     # Not by being small: every element that is not 0 by symmetry matters here.
     assert (np.abs(expected[:, 1:, 1:]) / m00[:, None, None]).max(axis=(0, 3)).min() > 0.3
 
@@ -139,18 +138,56 @@ def lit_film(surface: str) -> Spec:
     return Spec.from_document(fields)
 
 
-@pytest.mark.parametrize("surface", FILMS)
-def test_m00_of_a_film_is_f_at_the_nodes(
-    surface: str, mitsuba: ModuleType, loaded: Loaded, device: Device
-) -> None:
-    """At nodes of the file M00 is unpolarised f cos_o within 1e-3, as Mitsuba reads it."""
-    spec = lit_film(surface)
-    bsdf = loaded(mitsuba, spec)
-    i, o = node_directions(loaded.path_of(spec))
-    nm = WAVELENGTH_NM[1:]
-    got = mueller_values(bsdf, i, o, nm)[:, 0, 0]
-    expected = bsdf_solver(device, spec).exact().reflection(0, i, o, nm) * o[:, 2:]
-    np.testing.assert_allclose(got, expected, rtol=1e-3)
+@dataclass(frozen=True, eq=False)
+class Read:
+    """M00 over f cos_o less 1, as Mitsuba reads it, and the light there, (P, 4)."""
+
+    nodes: FloatArray
+    lobe: FloatArray
+    lobe_light: FloatArray
+    wide: FloatArray
+    wide_light: FloatArray
+
+
+@pytest.fixture(params=["ggx", "rough", "diffuse"])
+def read(
+    request: pytest.FixtureRequest,
+    mitsuba: ModuleType,
+    loaded: Loaded,
+    reads: dict[tuple[str, str], Read],
+    device: Device,
+) -> Read:
+    """Return what Mitsuba makes of a film's file, in one call: its vectorised variants compile each."""
+    key = (mitsuba.variant(), request.param)
+    if key not in reads:
+        reads[key] = read_of(request.param, mitsuba, loaded, device)
+    return reads[key]
+
+
+@pytest.fixture(scope="module")
+def reads() -> dict[tuple[str, str], Read]:
+    """Return where they are kept."""
+    return {}
+
+
+def read_of(surface: str, mitsuba: ModuleType, loaded: Loaded, device: Device) -> Read:
+    """Compare M00 of a film with the bsdf in double precision."""
+    spec, nm = lit_film(surface), WAVELENGTH_NM[1:]
+    i, turned = random_incoming(10 * PAIRS, 8), random_incoming(2 * PAIRS, 10)
+    o, weight = random_reflected(i, SURFACES[surface]["alpha_x"], 9)
+    lit = weight > 0
+    sets = [
+        node_directions(loaded.path_of(spec)),
+        (i[lit], o[lit]),
+        (turned, random_diffuse(2 * PAIRS, 11)),
+    ]
+    incoming, outgoing = (np.concatenate(side) for side in zip(*sets, strict=True))
+    got = mueller_values(loaded(mitsuba, spec), incoming, outgoing, nm)[:, 0, 0]
+    f_cos = bsdf_solver(device, spec).exact().reflection(0, incoming, outgoing, nm) * outgoing[:, 2:]
+    ends = np.cumsum([len(pair[0]) for pair in sets])[:2]
+    nodes, lobe, wide = np.split(got / f_cos - 1, ends)
+    _, lobe_light, wide_light = np.split(f_cos, ends)
+    return Read(nodes, lobe, lobe_light * weight[lit, None], wide, wide_light)
 
 
 def node_directions(path: Path) -> tuple[FloatArray, FloatArray]:
@@ -159,53 +196,43 @@ def node_directions(path: Path) -> tuple[FloatArray, FloatArray]:
     Both angles are beyond where an arc cosine in single precision tells one from 0.
     """
     fields, random = tensor_fields(path), np.random.default_rng(7)
-    phi_d, theta_d, theta_h = (
-        random.choice(axis[axis >= least], 4 * PAIRS)
-        for axis, least in ((fields[name][0].astype(np.float64), least) for name, least in NODES_FROM.items())
+    phi_d, theta_d, theta_h = (fields[name][0].astype(np.float64) for name in ("phi_d", "theta_d", "theta_h"))
+    count = 4 * PAIRS
+    at = HalfDifference(
+        random.choice(theta_h[theta_h > 0.01], count),
+        random.choice(theta_d[theta_d > 0.01], count),
+        random.choice(phi_d, count),
     )
-    pairs = HalfDifference(theta_h, theta_d, phi_d).pairs()
+    pairs = at.pairs()
     above = np.minimum(pairs.incoming[:, 2], pairs.outgoing[:, 2]) > np.cos(np.radians(80))
     return pairs.outgoing[above], pairs.incoming[above]
 
 
-@pytest.mark.parametrize("surface", FILMS)
-def test_m00_of_a_film_is_f_where_light_goes(
-    surface: str, mitsuba: ModuleType, loaded: Loaded, device: Device
-) -> None:
-    """Along the lobe, from up to 75 degrees: half within 0.5e-3, nine of ten and all the light within 1e-3."""
-    spec = lit_film(surface)
-    i = random_incoming(10 * PAIRS, 8)
-    o, weight = random_reflected(i, SURFACES[surface]["alpha_x"], 9)
-    lit = weight > 0
-    i, o, nm = i[lit], o[lit], WAVELENGTH_NM[:4]
-    got = mueller_values(loaded(mitsuba, spec), i, o, nm)[:, 0, 0]
-    expected = bsdf_solver(device, spec).exact().reflection(0, i, o, nm) * o[:, 2:]
-    error, light = got / expected - 1, expected * weight[lit, None]
-    assert abs((error * light).sum() / light.sum()) <= 1e-3
-    # By the light there is: half and nine tenths of it.
-    order = np.argsort(np.abs(error), axis=None)
+def test_m00_of_a_film_is_f_at_the_nodes(read: Read) -> None:
+    """At random nodes of the file M00 is unpolarised f cos_o: none is off by more than 1e-3."""
+    assert np.abs(read.nodes).max() <= 1e-3
+    assert len(read.nodes) > PAIRS
+
+
+def test_m00_of_a_film_is_f_where_light_goes(read: Read) -> None:
+    """Along the lobe, from up to 75 degrees: half of the light within 0.5e-3, nine tenths and all in 1e-3."""
+    light, error = read.lobe_light, np.abs(read.lobe)
+    assert abs((read.lobe * light).sum() / light.sum()) <= 1e-3
+    order = np.argsort(error, axis=None)
     share = np.cumsum(light.ravel()[order]) / light.sum()
-    median, p90 = np.interp([0.5, 0.9], share, np.abs(error).ravel()[order])
+    median, p90 = np.interp([0.5, 0.9], share, error.ravel()[order])
     assert median <= 0.5e-3
     assert p90 <= 1e-3
 
 
-@pytest.mark.parametrize("surface", FILMS)
-def test_m00_of_a_film_is_f_all_over(
-    surface: str, mitsuba: ModuleType, loaded: Loaded, device: Device
-) -> None:
+def test_m00_of_a_film_is_f_all_over(read: Read) -> None:
     """Off the lobe, too, from up to 75 degrees: the light within 1e-3, and half of all directions."""
-    spec = lit_film(surface)
-    i, o = random_incoming(2 * PAIRS, 10), random_diffuse(2 * PAIRS, 11)
-    nm = WAVELENGTH_NM[:4]
-    got = mueller_values(loaded(mitsuba, spec), i, o, nm)[:, 0, 0]
-    expected = bsdf_solver(device, spec).exact().reflection(0, i, o, nm) * o[:, 2:]
-    assert abs(got.sum() / expected.sum() - 1) <= 1e-3
-    assert np.median(np.abs(got / expected - 1)) <= 1e-3
+    assert abs((read.wide * read.wide_light).sum() / read.wide_light.sum()) <= 1e-3
+    assert np.median(np.abs(read.wide)) <= 1e-3
 
 
 def test_light_up_to_the_horizon_is_seen(mitsuba: ModuleType, loaded: Loaded, device: Device) -> None:
-    """Cells that the horizon cuts are not black: nine of ten within 7 % of f, all within 15 %."""
+    """Cells that the horizon cuts are not black: nine of ten within 5 % of f, all within 10 %."""
     random = np.random.default_rng(5)
     turn, cosine = random.uniform(-np.pi, np.pi, 100), random.uniform(0.01, 0.06, 100)
     sine = np.sqrt(1 - cosine**2)
@@ -215,5 +242,5 @@ def test_light_up_to_the_horizon_is_seen(mitsuba: ModuleType, loaded: Loaded, de
     expected = bsdf_solver(device, silver(0.4)).reflection(0, i, o, nm) * o[:, 2:]
     assert (got > 0).all()
     error = np.abs(got / expected - 1)
-    assert np.quantile(error, 0.9) <= 0.07
-    assert error.max() <= 0.15
+    assert np.quantile(error, 0.9) <= 0.05
+    assert error.max() <= 0.1
