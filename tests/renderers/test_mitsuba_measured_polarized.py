@@ -105,7 +105,7 @@ def directions() -> tuple[FloatArray, FloatArray]:
 
 @pytest.mark.parametrize("alpha", [0.05, 0.2, 0.4])
 def test_silver_is_mitsubas_own_conductor(alpha: float, mitsuba: ModuleType, loaded: Loaded) -> None:
-    """All 16 elements at each pair: half within 0.1 % of M00, nine of ten in 0.5 %, the light within 0.05 %."""
+    """All 16 elements at each pair: half within 0.1 % of M00, nine of ten in 0.5 %, the light in 0.05 %."""
     index = refractive_index(NamedMaterial(name=SILVER), WAVELENGTH_NM)
     i, o = directions()
     nm = WAVELENGTH_NM[:4]

@@ -15,7 +15,7 @@ WAVELENGTH_NM = np.array([400.0, 480.0, 560.0, 640.0, 720.0])
 
 def nodes_of(spec: Spec, device: Device) -> Nodes:
     """Return the nodes of a surface on the largest grid."""
-    return placing(bsdf_solver(device, spec), Spectra(WAVELENGTH_NM)).nodes(33, 12_500)
+    return placing(bsdf_solver(device, spec), Spectra(WAVELENGTH_NM)).nodes(37, 12_500)
 
 
 @pytest.mark.parametrize("surface", ["narrow", "ggx", "rough"])
@@ -25,10 +25,10 @@ def test_readers_find_every_angle(surface: str, device: Device) -> None:
     for angle in (nodes.phi_d, nodes.theta_d, nodes.theta_h):
         assert (angle == angle.astype(np.float32)).all()
         assert (np.diff(angle.astype(np.float32)) > 0).all()
-    np.testing.assert_allclose(nodes.phi_d[[0, 16, 32]], [-np.pi, 0, np.pi], atol=1e-6)
+    np.testing.assert_allclose(nodes.phi_d[[0, 18, 36]], [-np.pi, 0, np.pi], atol=1e-6)
     for angle in (nodes.theta_d, nodes.theta_h):
         np.testing.assert_allclose(angle[[0, -1]], [0, np.pi / 2], atol=1e-6)
-    assert nodes.count == pytest.approx(33 * 12_500, rel=0.02)
+    assert nodes.count == pytest.approx(37 * 12_500, rel=0.02)
 
 
 def test_azimuths_repeat_their_quarter(device: Device) -> None:

@@ -53,8 +53,8 @@ FloatArray = NDArray[np.float64]
 
 WAVELENGTHS = 5
 """What Mitsuba reads, no more and no fewer."""
-_GRIDS = ((25, 5_000), (29, 8_500), (33, 12_500))
-"""Nodes of phi_d, and pairs of theta_d and theta_h, to choose from; they make 40, 79 and 132 MB."""
+_GRIDS = ((25, 5_000), (29, 8_500), (37, 12_500))
+"""Nodes of phi_d, and pairs of theta_d and theta_h, to choose from; they make 40, 79 and 148 MB."""
 _DARK = 1e-30
 """What keeps a black surface from being divided by."""
 _MOST_SHIFT = 0.9 * EXACT
