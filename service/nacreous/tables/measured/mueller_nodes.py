@@ -5,8 +5,8 @@ angle by itself:
 
 - theta_h has the lobe, and needs most nodes, about its slope;
 - theta_d has the film's fringes and 1 / (4 cos_i cos_o), and needs most of them towards grazing;
-- phi_d matters little within a lobe, and much towards the horizon, which few azimuths about a right angle are
-  far from where the half vector is far from the normal.
+- phi_d matters little within a lobe, and much towards the horizon: where the half vector is far from the
+  normal, only azimuths about a right angle are above it.
 
 f of an isotropic surface is even in phi_d, and the same for both directions exchanged: its period is pi. The
 reader takes phi_d from -pi to pi as it comes, so that the quarter has to be repeated four times.
@@ -43,7 +43,7 @@ _LEAST_COSINE = 0.03
 _EVEN = 0.25
 """Share of the nodes that are even over all angles: light is grazing, too."""
 _EVEN_LOBE = 0.15
-"""The same of theta_h, whose density follows the lobe alone."""
+"""The same of the first guess of theta_h, which follows the lobe alone."""
 _FAINT = 3e-4
 """Part of the lobe's peak below which nodes follow it less and less."""
 _DULL = 0.1
