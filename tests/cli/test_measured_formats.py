@@ -91,15 +91,22 @@ def test_what_a_later_format_refuses_leaves_nothing_of_an_earlier_one(run: Run, 
     assert [path.name for path in tmp_path.iterdir()] == ["film.json"]
 
 
-def test_a_grid_that_is_too_coarse_is_told(run: Run, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "file", "told"),
+    [
+        ("rgl", "film.bsdf", "the grid that readers fix is too coarse"),
+        ("mueller", "film.pbsdf", "the largest grid is too coarse"),
+    ],
+)
+def test_a_grid_that_is_too_coarse_is_told(run: Run, tmp_path: Path, name: str, file: str, told: str) -> None:
     """A film of 20 micrometres has fringes that no grid of a reader follows: a file, and a line on stderr."""
     (tmp_path / "film.json").write_text(
         document(substrate={"n": 1.5, "k": 0.01}, layer={"thickness_nm": 20_000})
     )
-    done = run("tabulate", "film.json", "--format", "rgl")
+    done = run("tabulate", "film.json", "--format", name)
     assert done.returncode == 0, done.stderr
-    assert done.stdout == "film.bsdf\n"
-    assert done.stderr.startswith("nacreous: rgl: the grid that readers fix is too coarse")
+    assert done.stdout == f"{file}\n"
+    assert done.stderr.startswith(f"nacreous: {name}: {told}")
     assert done.stderr.count("\n") == 1
 
 

@@ -4,6 +4,7 @@ import json
 import struct
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +13,14 @@ import pytest
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS, write
 from nacreous.formats.verify import verify
-from nacreous.tables.table import Table
+from nacreous.tables.sampling import Sampling
+from nacreous.tables.table import Table, Variable
 
 Held = Callable[[str], Table]
 
 BINARY = [FormatName.RGL_RGB, FormatName.MBSDF, FormatName.MUELLER, FormatName.MERL]
 """Formats whose bytes we read ourselves."""
+NODES = ("phi_d", "theta_d", "theta_h")
 _PLACES = 60
 """Bytes of a file's head, and as many anywhere, that are changed one at a time."""
 
@@ -26,7 +29,23 @@ _PLACES = 60
 def file(request: pytest.FixtureRequest, held: Held, tmp_path: Path) -> Path:
     """Write a file of the format that the test names."""
     name: str = request.param
-    return write(held(name), tmp_path / f"film{FORMATS[FormatName(name)].suffix}")[0]
+    return write(thinned(held(name)), tmp_path / f"film{FORMATS[FormatName(name)].suffix}")[0]
+
+
+def thinned(table: Table) -> Table:
+    """Return a table with a few of its nodes, where it is of Mueller matrices: each damage is a file read."""
+    if table.sampling is not Sampling.MUELLER:
+        return table
+
+    def every_ninth(variable: Variable) -> Variable:
+        few = tuple(slice(None, None, 9 if dim in NODES else 1) for dim in variable.dims)
+        return replace(variable, values=np.ascontiguousarray(variable.values[few]))
+
+    coords, variables = (
+        {name: every_ninth(variable) for name, variable in held.items()}
+        for held in (table.coords, table.variables)
+    )
+    return replace(table, coords=coords, variables=variables)
 
 
 def places(size: int) -> list[int]:

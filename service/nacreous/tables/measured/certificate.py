@@ -14,19 +14,27 @@ from numpy.typing import NDArray
 from nacreous.opencl.bsdf import Pairs
 from nacreous.tables.bsdf.solver import BsdfSolver
 from nacreous.tables.figures import Figures
-from nacreous.tables.measured.rgl_grid import unit_vectors
+from nacreous.tables.measured.drawn_pairs import all_over, along_the_lobe, f_cos
 from nacreous.tables.measured.surface import Shades
 
-__all__ = ["MbsdfCertificate", "MeasuredCertificate", "certify", "certify_transmission", "shortfall"]
+__all__ = [
+    "EXACT",
+    "MbsdfCertificate",
+    "MeasuredCertificate",
+    "MuellerCertificate",
+    "certify",
+    "certify_nodes",
+    "certify_transmission",
+    "shortfall",
+]
 
 FloatArray = NDArray[np.float64]
 
-_PAIRS, _CANDIDATES = 2048, 8
-"""Pairs of each kind, and how many are drawn for one that is kept."""
-_STEEPEST = np.radians(75.0)
-"""Angle of incidence up to which is compared."""
+_LOBE_SEED, _WIDE_SEED = 2, 1
 NOTICED_MEDIAN, NOTICED_ENERGY = 0.05, 0.01
 """Errors of f along the lobe, and of all the light there, that are seen in a picture."""
+EXACT = 1e-3
+"""Relative error up to which M00 of a file of Mueller matrices is f, at a node, by its median, and in all."""
 _DARK = 1e-6
 """Part of the largest f cos_o below which nothing is seen, and nothing compared."""
 
@@ -86,13 +94,65 @@ class MbsdfCertificate(MeasuredCertificate):
     transmission_energy_error: float
 
 
+@dataclass(frozen=True)
+class MuellerCertificate(MeasuredCertificate):
+    """The same of a file whose nodes are moved a little, so that the light between them is right.
+
+    Parameters
+    ----------
+    grid_energy_error : float
+        Relative difference of the light along the lobe in all at the wavelengths of the file, with its sign.
+    wide_grid_error_median, wide_grid_error_p90 : float
+        Relative error of f all over the hemisphere at the wavelengths of the file, where it is not dark.
+    node_error_max : float
+        Largest relative difference of a node from f, of those above the horizon that are not dark.
+    """
+
+    grid_energy_error: float
+    wide_grid_error_median: float
+    wide_grid_error_p90: float
+    node_error_max: float
+
+
+def certify_nodes(
+    reflected: MeasuredCertificate,
+    solver: BsdfSolver,
+    shades: Shades,
+    evaluate: Callable[[Pairs], FloatArray],
+    nodes: Pairs,
+) -> MuellerCertificate:
+    """Add what f cos_o, (P, C), is worth at `nodes` themselves, and at the wavelengths of the file."""
+    exact = solver.exact()
+    along = along_the_lobe(exact, shades, _LOBE_SEED)
+    wide, at_nodes = (
+        _compared(f_cos(shades, exact, at), evaluate(at)) for at in (all_over(_WIDE_SEED), nodes)
+    )
+    return MuellerCertificate(
+        **asdict(reflected),
+        grid_energy_error=_energy_error(f_cos(shades, exact, along), evaluate(along)),
+        wide_grid_error_median=float(np.median(wide.relative)),
+        wide_grid_error_p90=float(np.quantile(wide.relative, 0.9)),
+        node_error_max=float(at_nodes.relative.max()),
+    )
+
+
+def _energy_error(truth: FloatArray, got: FloatArray) -> float:
+    """Return the relative difference of integrals of f cos_o, (P, C), at pairs drawn by its mean over C."""
+    density = truth.mean(axis=1)
+    lit = density > 0
+    if not lit.any():  # a black surface
+        return 0.0
+    each = 1 / density[lit, None]
+    return float((got[lit] * each).sum() / (truth[lit] * each).sum() - 1)
+
+
 def certify_transmission(
     reflected: MeasuredCertificate,
     truth: Callable[[Pairs], FloatArray],
     evaluate: Callable[[Pairs], FloatArray],
 ) -> MbsdfCertificate:
     """Add what `evaluate` makes of f_t cos_o, (P, C), against the `truth`, 0 and 0 where there is none."""
-    above = _wide()
+    above = all_over(_WIDE_SEED)
     pairs = Pairs(above.roughness, above.incoming, above.outgoing * np.array([1.0, 1.0, -1.0]))
     f, got = truth(pairs), evaluate(pairs)
     total = max(float(f.sum()), np.finfo(float).tiny)
@@ -105,6 +165,8 @@ def certify_transmission(
 
 def shortfall(certificate: Mapping[str, Any]) -> str:
     """Say what a reader will notice of a file's errors; empty where they are small, or of other tables."""
+    if "node_error_max" in certificate:
+        return _missed(certificate)
     median, energy = certificate.get("lobe_error_median", 0.0), certificate.get("lobe_energy_error", 0.0)
     if median <= NOTICED_MEDIAN and abs(energy) <= NOTICED_ENERGY:
         return ""
@@ -115,16 +177,29 @@ def shortfall(certificate: Mapping[str, Any]) -> str:
     )
 
 
+def _missed(certificate: Mapping[str, Any]) -> str:
+    """Say what a file of Mueller matrices misses of its 1e-3, wavelengths between its five apart."""
+    node, median = certificate["node_error_max"], certificate["grid_error_median"]
+    energy = certificate["grid_energy_error"]
+    if max(node, median, abs(energy)) <= EXACT:
+        return ""
+    return (
+        "the largest grid is too coarse for this film or its lobe: at the file's wavelengths f is off by "
+        f"{median:.2%} (median along the lobe), all the light there by {energy:+.2%}, and nodes by up to "
+        f"{node:.2%}"
+    )
+
+
 def certify(
     solver: BsdfSolver, shades: Shades, evaluate: Callable[[Pairs], FloatArray], energy_max: float
 ) -> MeasuredCertificate:
     """Compare f cos_o as `evaluate` reads it, (P, C), with the bsdf in double precision."""
     exact, held_out = solver.exact(), shades.held_out()
-    along, over = _along_the_lobe(exact, shades), _wide()
+    along, over = along_the_lobe(exact, shades, _LOBE_SEED), all_over(_WIDE_SEED)
     read = evaluate(along)
-    grid = _compared(_f_cos(shades, exact, along), read)
-    lobe = _compared(_f_cos(held_out, exact, along), shades.between(read))
-    wide = _compared(_f_cos(held_out, exact, over), shades.between(evaluate(over)))
+    grid = _compared(f_cos(shades, exact, along), read)
+    lobe = _compared(f_cos(held_out, exact, along), shades.between(read))
+    wide = _compared(f_cos(held_out, exact, over), shades.between(evaluate(over)))
     errors = np.concatenate([lobe.relative, wide.relative])
     return MeasuredCertificate(
         held_out_points=int(errors.size),
@@ -156,44 +231,3 @@ def _compared(truth: FloatArray, got: FloatArray) -> _Compared:
         return _Compared(np.zeros(1), 0.0)
     relative = np.abs(got[seen] / truth[seen] - 1)
     return _Compared(relative, float(got[seen].sum() / truth[seen].sum() - 1))
-
-
-def _f_cos(shades: Shades, solver: BsdfSolver, pairs: Pairs) -> FloatArray:
-    return np.asarray(shades.reflected(solver, pairs) * pairs.outgoing[:, 2:])
-
-
-def _incoming(random: np.random.Generator, count: int) -> FloatArray:
-    cosine = random.uniform(np.cos(_STEEPEST), 1, count)
-    return unit_vectors(np.arccos(cosine), random.uniform(-np.pi, np.pi, count))
-
-
-def _wide() -> Pairs:
-    """Outgoing light of a diffuse surface."""
-    random = np.random.default_rng(1)
-    incoming = _incoming(random, _PAIRS)
-    cosine = np.sqrt(random.random(_PAIRS))
-    outgoing = unit_vectors(np.arccos(cosine), random.uniform(-np.pi, np.pi, _PAIRS))
-    return Pairs(np.zeros(_PAIRS, np.int32), incoming, outgoing)
-
-
-def _along_the_lobe(solver: BsdfSolver, shades: Shades) -> Pairs:
-    """Outgoing light in proportion to f cos_o: of GGX's reflections some are kept, by what they count."""
-    random = np.random.default_rng(2)
-    count = _CANDIDATES * _PAIRS
-    incoming = _incoming(random, count)
-    u, turn = random.random(count), random.uniform(-np.pi, np.pi, count)
-    alpha_x, alpha_y = solver.facets.alphas[0]
-    slope = np.sqrt(u / (1 - u))
-    m = np.stack([alpha_x * slope * np.cos(turn), alpha_y * slope * np.sin(turn), np.ones(count)], axis=-1)
-    m /= np.linalg.norm(m, axis=-1, keepdims=True)
-    facing = np.sum(m * incoming, axis=-1)
-    outgoing = 2 * facing[:, None] * m - incoming
-    above = (facing > 0) & (outgoing[:, 2] > 1e-3)
-    pairs = Pairs(np.zeros(int(above.sum()), np.int32), incoming[above], outgoing[above])
-    x, y, z = m[above].T
-    drawn = z / (np.pi * alpha_x * alpha_y * ((x / alpha_x) ** 2 + (y / alpha_y) ** 2 + z**2) ** 2)
-    weight = _f_cos(shades, solver, pairs).mean(axis=-1).clip(min=0) * 4 * facing[above] / drawn
-    if not weight.any():  # a black surface
-        weight = np.ones_like(weight)
-    kept = random.choice(weight.size, _PAIRS, p=weight / weight.sum())
-    return Pairs(pairs.roughness[kept], pairs.incoming[kept], pairs.outgoing[kept])
