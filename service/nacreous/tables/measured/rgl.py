@@ -36,12 +36,12 @@ from nacreous.tables.measured.rgl_grid import (
     LADDERS,
     RglGrid,
     phi_of,
+    square_points,
     theta_of,
-    unit_of_phi,
-    unit_of_theta,
     unit_vectors,
 )
-from nacreous.tables.measured.rgl_table import RglTable, angles_of, looked_up
+from nacreous.tables.measured.rgl_middles import without_bias
+from nacreous.tables.measured.rgl_table import RglTable, jacobian
 from nacreous.tables.measured.rgl_warp import (
     facet_tables,
     reflected_f_cos,
@@ -68,11 +68,6 @@ _LEAST_LUMINANCE = 1e-4
 """Least luminance, as a part of the mean of its slice: what has none is never sampled."""
 _INSIDE = 1e-6
 """How far from the sides of the square its outermost samples are warped: the warp is steep at its sides."""
-_HORIZON = 0.1
-"""How far from the side where facets reflect along the horizon its samples are taken, in cells.
-
-S falls to 0 there so fast that a line to it would be too low all over the cell, and one from further inside
-too high beside the horizon."""
 
 
 def compute_rgl_spectra(device: Device, spec: Spec, observer: Observer | None) -> Computed:
@@ -165,19 +160,23 @@ def rgl_table(solver: BsdfSolver, grid: RglGrid, shades: Shades, observer: Obser
         f"a measured bsdf of {slices:,} x {square:,} x {shades.count:,} numbers",
         24 * grid.numbers(shades.count),
     )
+    table = _sampled(solver, grid, shades)
+    if observer is not None:
+        observer(0.6)
+    return without_bias(solver, shades, table)
+
+
+def _sampled(solver: BsdfSolver, grid: RglGrid, shades: Shades) -> RglTable:
+    """Return the table that is exact at its samples."""
+    slices = len(grid.incoming)
     ndf, sigma = facet_tables(solver, grid)
     densities = SquareDensities.of(warp_densities(solver, shades, grid, ndf))
-    last = 1 - _HORIZON / (grid.samples - 1)
-    points = np.clip(_square(grid.samples), _INSIDE, [last, 1 - _INSIDE])
+    points = np.clip(square_points(np.linspace(0, 1, grid.samples)), _INSIDE, 1 - _INSIDE)
     places = np.asarray(warped(solver.albedo.device, densities, points, Precision.DOUBLE), np.float64)
-    pairs, above = reflected_pairs(grid, places)
+    pairs, above = reflected_pairs(grid.incoming, places)
     f_cos = reflected_f_cos(solver, shades, pairs, above)
-    if observer is not None:
-        observer(0.8)
     x, y = places.reshape(-1, 2).T
-    theta, phi = angles_of(grid.incoming)
-    shown = 4 * looked_up(sigma, unit_of_theta(theta), unit_of_phi(phi)).repeat(square)
-    values = f_cos * (shown / looked_up(ndf, x, y))[:, None]
+    values = f_cos / jacobian(ndf, sigma, pairs.incoming, x, y)[:, None]
     luminance = _luminance(f_cos, pairs, x, densities, places)
     return RglTable(
         grid,
@@ -187,12 +186,6 @@ def rgl_table(solver: BsdfSolver, grid: RglGrid, shades: Shades, observer: Obser
         luminance.reshape(slices, grid.samples, grid.samples),
         values.reshape(slices, grid.samples, grid.samples, shades.count),
     )
-
-
-def _square(samples: int) -> FloatArray:
-    """Points of the square, (N^2, 2), x fastest."""
-    x, y = np.meshgrid(np.linspace(0, 1, samples), np.linspace(0, 1, samples))
-    return np.stack([x.ravel(), y.ravel()], axis=-1)
 
 
 def _luminance(

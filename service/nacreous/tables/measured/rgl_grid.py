@@ -13,7 +13,16 @@ from numpy.typing import NDArray
 
 from nacreous.tables.axes import MAX_COUNTED_THETA
 
-__all__ = ["LADDERS", "RglGrid", "phi_of", "theta_of", "unit_of_phi", "unit_of_theta", "unit_vectors"]
+__all__ = [
+    "LADDERS",
+    "RglGrid",
+    "phi_of",
+    "square_points",
+    "theta_of",
+    "unit_of_phi",
+    "unit_of_theta",
+    "unit_vectors",
+]
 
 FloatArray = NDArray[np.float64]
 
@@ -87,6 +96,12 @@ LADDERS: dict[bool, tuple[RglGrid, ...]] = {
     ),
 }
 """Grids to choose from, small ones first, for isotropic (False) and anisotropic (True) surfaces."""
+
+
+def square_points(places: FloatArray) -> FloatArray:
+    """Return the points of the square with these places on either side, (N^2, 2), x fastest."""
+    x, y = np.meshgrid(places, places)
+    return np.stack([x.ravel(), y.ravel()], axis=-1)
 
 
 def theta_of(u: FloatArray) -> FloatArray:

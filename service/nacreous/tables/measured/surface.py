@@ -51,6 +51,9 @@ class Shades(Protocol):
     def between(self, values: FloatArray) -> FloatArray:
         """Return what a reader makes of values (P, C) at those held out."""
 
+    def around(self, values: FloatArray) -> FloatArray:
+        """Return the means of those held out, (P, …), that lie about those of the table, (P, C)."""
+
 
 @dataclass(frozen=True, eq=False)
 class Spectra:
@@ -80,6 +83,10 @@ class Spectra:
         """Return the means of neighbouring wavelengths."""
         return (values[:, 1:] + values[:, :-1]) / 2
 
+    def around(self, values: FloatArray) -> FloatArray:
+        """Return the means of the middles on both sides; outermost wavelengths have one."""
+        return self.between(np.pad(values, ((0, 0), (1, 1)), mode="edge"))
+
 
 @dataclass(frozen=True, eq=False)
 class Colours:
@@ -106,6 +113,10 @@ class Colours:
         return self
 
     def between(self, values: FloatArray) -> FloatArray:
+        """Return the values themselves."""
+        return values
+
+    def around(self, values: FloatArray) -> FloatArray:
         """Return the values themselves."""
         return values
 
