@@ -56,11 +56,11 @@ __all__ = ["compute_rgl_colours", "compute_rgl_spectra", "rgl_table"]
 
 FloatArray = NDArray[np.float64]
 
-MEDIAN_ERROR, P90_ERROR, ENERGY_ERROR = 1e-3, 6e-3, 5e-4
+MEDIAN_ERROR, P90_ERROR, MEAN_ERROR, ENERGY_ERROR = 1e-3, 6e-3, 1e-3, 5e-4
 """Relative errors of f along a lobe, and of all the light in it, at which a grid is fine enough.
 
 Twice that for an anisotropic surface."""
-WIDE_MEDIAN_ERROR, WIDE_P90_ERROR = 2.5e-3, 1.5e-2
+WIDE_MEDIAN_ERROR, WIDE_P90_ERROR = 2.5e-3, 8e-3
 """The same of f all over the hemisphere, in the middle between wavelengths."""
 _MOST_BYTES = {False: 20 * 10**6, True: 40 * 10**6}
 """Size beyond which no finer grid is tried: renderers keep the whole file in memory."""
@@ -133,6 +133,7 @@ def _worst(tried: tuple[RglTable, MeasuredCertificate]) -> float:
     return max(
         certificate.grid_error_p90 / P90_ERROR,
         certificate.wide_error_p90 / WIDE_P90_ERROR,
+        abs(certificate.lobe_error_mean) / MEAN_ERROR,
         abs(certificate.lobe_energy_error) / ENERGY_ERROR,
     )
 
@@ -141,6 +142,7 @@ def _is_fine(certificate: MeasuredCertificate, slack: float) -> bool:
     return (
         certificate.grid_error_median <= slack * MEDIAN_ERROR
         and certificate.grid_error_p90 <= slack * P90_ERROR
+        and abs(certificate.lobe_error_mean) <= slack * MEAN_ERROR
         and abs(certificate.lobe_energy_error) <= slack * ENERGY_ERROR
         and certificate.wide_error_median <= slack * WIDE_MEDIAN_ERROR
         and certificate.wide_error_p90 <= slack * WIDE_P90_ERROR

@@ -82,13 +82,13 @@ class RglGrid:
         return slices * (self.rows * self.columns + (channels + 1) * self.samples**2) + facets
 
 
-_ISOTROPIC = {"rows": 32, "columns": 256, "facet_azimuths": 2, "facet_tilts": 2048}
+_ISOTROPIC = {"rows": 64, "columns": 128, "facet_azimuths": 2, "facet_tilts": 2048}
 _ANISOTROPIC = {"rows": 48, "columns": 64, "facet_azimuths": 256, "facet_tilts": 512}
 
 LADDERS: dict[bool, tuple[RglGrid, ...]] = {
     False: tuple(
         RglGrid(1, tilts, samples, **_ISOTROPIC)
-        for tilts, samples in ((24, 24), (32, 32), (48, 32), (36, 38), (28, 44), (48, 48))
+        for tilts, samples in ((24, 24), (32, 32), (28, 38), (28, 44), (36, 48), (48, 48))
     ),
     True: tuple(
         RglGrid(azimuths, tilts, samples, **_ANISOTROPIC)
