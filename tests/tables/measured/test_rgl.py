@@ -94,6 +94,7 @@ def test_the_certificate_holds_what_a_renderer_is_promised(name: FormatName) -> 
     figures = json.loads(table.provenance["certificate"])
     assert figures["lobe_error_median"] <= 3e-3
     assert figures["lobe_error_p90"] <= 1.5e-2
+    assert abs(figures["lobe_error_mean"]) <= 2e-3
     assert abs(figures["lobe_energy_error"]) <= 2e-3
     assert figures["held_out_points"] > 1000
     assert figures["nonfinite"] == 0
@@ -109,6 +110,7 @@ def test_a_worse_table_has_a_worse_certificate(device: Device) -> None:
     table = small_table("ggx", device)
     worse = replace(table, values=table.values * 1.1)
     good, bad = (certify(solver, shades, t.evaluate, 1.0) for t in (table, worse))
+    assert bad.lobe_error_mean - good.lobe_error_mean == pytest.approx(0.1, abs=1e-2)
     assert bad.lobe_energy_error - good.lobe_energy_error == pytest.approx(0.1, abs=1e-2)
     assert bad.grid_error_median > good.grid_error_median + 0.05
 

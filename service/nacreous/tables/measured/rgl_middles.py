@@ -1,10 +1,10 @@
 """What lines between the samples of a measured material are off by, taken off the samples.
 
-A line between two samples of a curve is off by h^2 f'' / 8 in the middle and by two thirds of that on average,
-to the same side. Samples moved by these two thirds leave it nothing on average, and at most two thirds
-anywhere. Errors along several axes add up in the middle of a cell, so that one look there is enough for all of
-them: both axes of the square, both angles of the incoming light, and wavelengths. Errors are relative, so that
-faint directions count as much as bright ones.
+A line between two samples of a curve is off by h^2 f'' / 8 in the middle and by two thirds of that on
+average, to the same side. Samples moved by these two thirds leave it nothing on average, and at most two
+thirds anywhere. Errors along several axes add up in the middle of a cell, so that one look there is enough
+for all of them: both axes of the square, both angles of the incoming light, and wavelengths. Errors are
+relative, so that faint directions count as much as bright ones.
 """
 
 from dataclasses import replace

@@ -19,12 +19,17 @@ _TAILS = 0.85
 """Share of the square for facets off the lobe.
 
 The lobe alone leaves a diffusely lit pair of directions an error of 90 % at alpha 0.02, half of the square
-0.4 %, this share 0.3 %. It halves the error of an anisotropic surface, whose samples are few, and costs no lobe
-anything measurable."""
-_HORIZON = 0.5
+0.4 %, this share 0.3 %. It halves the error of an anisotropic surface, whose samples are few, and costs no
+lobe anything measurable."""
+_FLAT = 0.5
 """Added to cos_o, of which the tails' density is the inverse: three times as many samples at the horizon.
 
 f cos_o falls to 0 there within an alpha. Fewer samples follow it worse, more lack elsewhere."""
+_AT_HORIZON = 1 / 3
+"""Part of the density that is left at the horizon.
+
+With more of it, samples lie beyond the horizon for light between those stored, and a line towards them is
+many times too bright beside it. With less, lines are too dark. This is where relative errors have no mean."""
 _LEAST_DENSITY = 1e-6
 """What keeps rows of a density above 0 where no facet reflects above the horizon."""
 _LEAST_FACETS = 1e-30
@@ -62,7 +67,7 @@ def warp_densities(solver: BsdfSolver, shades: Shades, grid: RglGrid, ndf: Float
     cos_o = pairs.outgoing[:, 2].reshape(facing.shape)
     within = _within(cos_o)
     lobe = _normalised(within * facing * seen * stretch)
-    tails = _normalised(within / (np.maximum(cos_o, 0) + _HORIZON))
+    tails = _normalised(within / (np.maximum(cos_o, 0) + _FLAT))
     return (1 - _TAILS) * lobe + _TAILS * tails + _LEAST_DENSITY
 
 
@@ -85,9 +90,9 @@ def reflected_pairs(incoming: FloatArray, places: FloatArray) -> tuple[Pairs, ND
 
 
 def _within(cos_o: FloatArray) -> FloatArray:
-    """Return the part of each sample (S, H, W) above the horizon, whose distance is linear in cos_o."""
+    """Return the part that a density has at samples (S, H, W): it falls to 0 in one cell at the horizon."""
     slope = np.hypot(np.gradient(cos_o, axis=1), np.gradient(cos_o, axis=2))
-    return np.clip(0.5 + cos_o / np.maximum(slope, np.finfo(float).tiny), 0, 1)
+    return np.clip(_AT_HORIZON + cos_o / np.maximum(slope, np.finfo(float).tiny), 0, 1)
 
 
 def _normalised(values: FloatArray) -> FloatArray:
