@@ -3,8 +3,9 @@
 A line between two samples of a curve is off by h^2 f'' / 8 in the middle and by two thirds of that on
 average, to the same side. Samples moved by these two thirds leave it nothing on average, and at most two
 thirds anywhere. Errors along several axes add up in the middle of a cell, so that one look there is enough
-for all of them: both axes of the square, both angles of the incoming light, and wavelengths. Errors are
-relative, so that faint directions count as much as bright ones.
+for all of them: both axes of the square and both angles of the incoming light. Errors are relative, so that
+faint directions count as much as bright ones. Wavelengths are left alone: a furnace at one of the file's is
+to give back its albedo.
 """
 
 from dataclasses import replace
@@ -56,19 +57,15 @@ def _errors(solver: BsdfSolver, shades: Shades, table: RglTable, tilt: int) -> t
     middles = square_points((np.arange(grid.samples - 1) + 0.5) / (grid.samples - 1))
     places = np.asarray(warped(solver.albedo.device, densities, middles, Precision.DOUBLE), np.float64)
     pairs, above = reflected_pairs(incoming, places)
-    truth = reflected_f_cos(solver, shades.held_out(), pairs, above)
+    truth = reflected_f_cos(solver, shades, pairs, above)
     values = table.values.reshape(grid.azimuths, grid.tilts, grid.samples, grid.samples, -1)
     corners = _middles(_middles(_around(grid, values[:, tilt : tilt + 2].mean(axis=1)), 1), 2)
     x, y = places.reshape(-1, 2).T
-    read = shades.between(corners.reshape(len(x), -1))
-    read *= jacobian(table.ndf, table.sigma, pairs.incoming, x, y)[:, None]
+    read = corners.reshape(truth.shape) * jacobian(table.ndf, table.sigma, pairs.incoming, x, y)[:, None]
     error = np.divide(read, truth, out=np.ones(truth.shape), where=truth > 0) - 1
-    error = shades.around(np.clip(error, -_MOST_ERROR, _MOST_ERROR))
-    cells = corners.shape[:-1]
-    return (
-        _summed(grid, error.reshape(*cells, -1)),
-        _summed(grid, above.astype(np.float64).reshape(*cells, 1)),
-    )
+    error = np.clip(error, -_MOST_ERROR, _MOST_ERROR).reshape(corners.shape)
+    seen = above.astype(np.float64).reshape(*corners.shape[:-1], 1)
+    return _summed(grid, error), _summed(grid, seen)
 
 
 def _between(grid: RglGrid, densities: SquareDensities, tilt: int) -> tuple[FloatArray, SquareDensities]:

@@ -51,9 +51,6 @@ class Shades(Protocol):
     def between(self, values: FloatArray) -> FloatArray:
         """Return what a reader makes of values (P, C) at those held out."""
 
-    def around(self, values: FloatArray) -> FloatArray:
-        """Return the means of those held out, (P, …), that lie about those of the table, (P, C)."""
-
 
 @dataclass(frozen=True, eq=False)
 class Spectra:
@@ -83,10 +80,6 @@ class Spectra:
         """Return the means of neighbouring wavelengths."""
         return (values[:, 1:] + values[:, :-1]) / 2
 
-    def around(self, values: FloatArray) -> FloatArray:
-        """Return the means of the middles on both sides; outermost wavelengths have one."""
-        return self.between(np.pad(values, ((0, 0), (1, 1)), mode="edge"))
-
 
 @dataclass(frozen=True, eq=False)
 class Colours:
@@ -113,10 +106,6 @@ class Colours:
         return self
 
     def between(self, values: FloatArray) -> FloatArray:
-        """Return the values themselves."""
-        return values
-
-    def around(self, values: FloatArray) -> FloatArray:
         """Return the values themselves."""
         return values
 
