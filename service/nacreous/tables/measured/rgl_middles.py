@@ -4,8 +4,10 @@ A line between two samples of a curve is off by h^2 f'' / 8 in the middle and by
 average, to the same side. Samples moved by these two thirds leave it nothing on average, and at most two
 thirds anywhere. Errors along several axes add up in the middle of a cell, so that one look there is enough
 for all of them: both axes of the square and both angles of the incoming light. Errors are relative, so that
-faint directions count as much as bright ones. Wavelengths are left alone: a furnace at one of the file's is
-to give back its albedo.
+faint directions count as much as bright ones.
+
+Wavelengths and light along the normal are left alone: both are looked at by themselves, in a furnace say,
+and are exact where the file has them.
 """
 
 from dataclasses import replace
@@ -41,6 +43,7 @@ def without_bias(solver: BsdfSolver, shades: Shades, table: RglTable) -> RglTabl
         for node in (tilt, tilt + 1):
             moved[:, node] += error
             cells[:, node] += seen
+    moved[:, 0] = 0  # along the normal
     moved *= -2 / 3 / np.maximum(cells, 1)
     moved += 1
     moved *= values
