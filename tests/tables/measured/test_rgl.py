@@ -22,7 +22,7 @@ from nacreous.tables.measured.surface import Spectra
 WAVELENGTH_NM = np.array([450.0, 550.0, 650.0])
 SMALL = RglGrid(1, 8, 16, rows=16, columns=64, facet_azimuths=2, facet_tilts=512)
 SMALL_TURNED = RglGrid(9, 8, 16, rows=24, columns=64, facet_azimuths=128, facet_tilts=256)
-FINE = RglGrid(1, 24, 24, rows=16, columns=64, facet_azimuths=2, facet_tilts=512)
+FINE = LADDERS[False][2]
 FINE_TURNED = RglGrid(17, 20, 16, rows=24, columns=64, facet_azimuths=128, facet_tilts=256)
 GRIDS = {"ggx": SMALL, "ashikhmin-shirley": SMALL, "diffuse": SMALL, "anisotropic": SMALL_TURNED}
 
