@@ -29,6 +29,9 @@ SURFACES: dict[str, dict[str, Any]] = {
 }
 """From the narrowest lobe that a file holds to a broad one."""
 
+SUBSTRATES: dict[str, object] = {"titanium": "main/Ti/Johnson", "glass": {"n": 1.5, "k": 0.01}}
+"""Under the film: one that its R nearly vanishes on at some wavelengths, and a dark one."""
+
 STEEPEST = np.radians(75.0)
 WAVELENGTH_NM = (380.0, 780.0)
 

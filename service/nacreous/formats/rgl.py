@@ -23,7 +23,7 @@ Facets and directions lie on the square by theta = u^2 pi / 2 along its last axi
 the one before. `nacreous.tables.measured.rgl` derives the tables. They hold reflected light alone, on one
 side, of one roughness: what a spec transmits is refused unless it gives it up (`table.transmission`), and so
 are roughnesses below 0.02, whose lobes are narrower than the grid. Readers take the colours for their own
-space, which is Rec.709 where nobody has changed it. Files of 81 wavelengths are of 1 to 20 MB, up to 40 of an
+space, which is Rec.709 where nobody has changed it. Files of 81 wavelengths are of 5 to 20 MB, up to 40 of an
 anisotropic surface; more wavelengths take more. The certificate states the error that a reader has, for light
 from up to 75 degrees: beyond, S falls off faster than any grid follows.
 """

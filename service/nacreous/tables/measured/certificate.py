@@ -52,6 +52,9 @@ class MeasuredCertificate(Figures):
         directions costs.
     lobe_error_median, lobe_error_p90, lobe_error_p99 : float
         Relative error of f along the lobe, by quantile.
+    lobe_error_mean : float
+        Mean of the relative error of f along the lobe, with its sign, over all wavelengths; faint directions
+        count as much as bright ones.
     lobe_energy_error : float
         Relative difference of the light that goes there in all, with its sign.
     wide_error_median, wide_error_p90 : float
@@ -70,6 +73,7 @@ class MeasuredCertificate(Figures):
     lobe_error_median: float
     lobe_error_p90: float
     lobe_error_p99: float
+    lobe_error_mean: float
     lobe_energy_error: float
     wide_error_median: float
     wide_error_p90: float
@@ -208,6 +212,7 @@ def certify(
         lobe_error_median=float(np.median(lobe.relative)),
         lobe_error_p90=float(np.quantile(lobe.relative, 0.9)),
         lobe_error_p99=float(np.quantile(lobe.relative, 0.99)),
+        lobe_error_mean=(grid.mean + 2 * lobe.mean) / 3,  # Simpson's rule from wavelength to wavelength
         lobe_energy_error=lobe.energy,
         wide_error_median=float(np.median(wide.relative)),
         wide_error_p90=float(np.quantile(wide.relative, 0.9)),
@@ -219,15 +224,16 @@ def certify(
 
 @dataclass(frozen=True, eq=False)
 class _Compared:
-    """Relative errors, flat, and the relative difference of the sums."""
+    """Relative errors, flat, their mean with its sign, and the relative difference of the sums."""
 
     relative: FloatArray
+    mean: float
     energy: float
 
 
 def _compared(truth: FloatArray, got: FloatArray) -> _Compared:
     seen = truth > _DARK * truth.max()
     if not seen.any():  # a black surface
-        return _Compared(np.zeros(1), 0.0)
-    relative = np.abs(got[seen] / truth[seen] - 1)
-    return _Compared(relative, float(got[seen].sum() / truth[seen].sum() - 1))
+        return _Compared(np.zeros(1), 0.0, 0.0)
+    error = got[seen] / truth[seen] - 1
+    return _Compared(np.abs(error), float(error.mean()), float(got[seen].sum() / truth[seen].sum() - 1))

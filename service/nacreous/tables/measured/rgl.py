@@ -10,10 +10,11 @@ S is computed with the very tables that the reader divides by. They decide how s
 
     ndf      the surface's D, and where it also scatters light diffusely a share of a constant;
     sigma    the projected area of the facets, so that S is about F G2 / G1;
-    density  half the visible facets, max(0, i.m) D(m), and half a constant, both within the directions that
-             reflect above the horizon. The constant gives the tails of a lobe room on the square: with the
-             visible facets alone they would share its last row.
+    density  the visible facets, max(0, i.m) D(m), and for the most part one that is wide, 1 / (cos_o + 1/2),
+             both within the directions that reflect above the horizon. It gives the tails of a lobe room on
+             the square: with the visible facets alone they would share its last row.
 
+Samples are moved a little in the end (`rgl_middles`), so that lines between them are right on average.
 ``luminance``, which readers sample before they warp, is the mean of f cos_o over this density, so that what
 they sample follows f cos_o, whatever the density is.
 """
@@ -36,12 +37,12 @@ from nacreous.tables.measured.rgl_grid import (
     LADDERS,
     RglGrid,
     phi_of,
+    square_points,
     theta_of,
-    unit_of_phi,
-    unit_of_theta,
     unit_vectors,
 )
-from nacreous.tables.measured.rgl_table import RglTable, angles_of, looked_up
+from nacreous.tables.measured.rgl_middles import without_bias
+from nacreous.tables.measured.rgl_table import RglTable, jacobian
 from nacreous.tables.measured.rgl_warp import (
     facet_tables,
     reflected_f_cos,
@@ -56,11 +57,11 @@ __all__ = ["compute_rgl_colours", "compute_rgl_spectra", "rgl_table"]
 
 FloatArray = NDArray[np.float64]
 
-MEDIAN_ERROR, P90_ERROR, ENERGY_ERROR = 1e-3, 6e-3, 5e-4
+MEDIAN_ERROR, P90_ERROR, MEAN_ERROR, ENERGY_ERROR = 1e-3, 6e-3, 2e-3, 5e-4
 """Relative errors of f along a lobe, and of all the light in it, at which a grid is fine enough.
 
 Twice that for an anisotropic surface."""
-WIDE_MEDIAN_ERROR, WIDE_P90_ERROR = 2.5e-3, 1.5e-2
+WIDE_MEDIAN_ERROR, WIDE_P90_ERROR = 2.5e-3, 8e-3
 """The same of f all over the hemisphere, in the middle between wavelengths."""
 _MOST_BYTES = {False: 20 * 10**6, True: 40 * 10**6}
 """Size beyond which no finer grid is tried: renderers keep the whole file in memory."""
@@ -68,11 +69,6 @@ _LEAST_LUMINANCE = 1e-4
 """Least luminance, as a part of the mean of its slice: what has none is never sampled."""
 _INSIDE = 1e-6
 """How far from the sides of the square its outermost samples are warped: the warp is steep at its sides."""
-_HORIZON = 0.1
-"""How far from the side where facets reflect along the horizon its samples are taken, in cells.
-
-S falls to 0 there so fast that a line to it would be too low all over the cell, and one from further inside
-too high beside the horizon."""
 
 
 def compute_rgl_spectra(device: Device, spec: Spec, observer: Observer | None) -> Computed:
@@ -138,6 +134,7 @@ def _worst(tried: tuple[RglTable, MeasuredCertificate]) -> float:
     return max(
         certificate.grid_error_p90 / P90_ERROR,
         certificate.wide_error_p90 / WIDE_P90_ERROR,
+        abs(certificate.lobe_error_mean) / MEAN_ERROR,
         abs(certificate.lobe_energy_error) / ENERGY_ERROR,
     )
 
@@ -146,6 +143,7 @@ def _is_fine(certificate: MeasuredCertificate, slack: float) -> bool:
     return (
         certificate.grid_error_median <= slack * MEDIAN_ERROR
         and certificate.grid_error_p90 <= slack * P90_ERROR
+        and abs(certificate.lobe_error_mean) <= slack * MEAN_ERROR
         and abs(certificate.lobe_energy_error) <= slack * ENERGY_ERROR
         and certificate.wide_error_median <= slack * WIDE_MEDIAN_ERROR
         and certificate.wide_error_p90 <= slack * WIDE_P90_ERROR
@@ -165,19 +163,23 @@ def rgl_table(solver: BsdfSolver, grid: RglGrid, shades: Shades, observer: Obser
         f"a measured bsdf of {slices:,} x {square:,} x {shades.count:,} numbers",
         24 * grid.numbers(shades.count),
     )
+    table = _sampled(solver, grid, shades)
+    if observer is not None:
+        observer(0.6)
+    return without_bias(solver, shades, table)
+
+
+def _sampled(solver: BsdfSolver, grid: RglGrid, shades: Shades) -> RglTable:
+    """Return the table that is exact at its samples."""
+    slices = len(grid.incoming)
     ndf, sigma = facet_tables(solver, grid)
     densities = SquareDensities.of(warp_densities(solver, shades, grid, ndf))
-    last = 1 - _HORIZON / (grid.samples - 1)
-    points = np.clip(_square(grid.samples), _INSIDE, [last, 1 - _INSIDE])
+    points = np.clip(square_points(np.linspace(0, 1, grid.samples)), _INSIDE, 1 - _INSIDE)
     places = np.asarray(warped(solver.albedo.device, densities, points, Precision.DOUBLE), np.float64)
-    pairs, above = reflected_pairs(grid, places)
+    pairs, above = reflected_pairs(grid.incoming, places)
     f_cos = reflected_f_cos(solver, shades, pairs, above)
-    if observer is not None:
-        observer(0.8)
     x, y = places.reshape(-1, 2).T
-    theta, phi = angles_of(grid.incoming)
-    shown = 4 * looked_up(sigma, unit_of_theta(theta), unit_of_phi(phi)).repeat(square)
-    values = f_cos * (shown / looked_up(ndf, x, y))[:, None]
+    values = f_cos / jacobian(ndf, sigma, pairs.incoming, x, y)[:, None]
     luminance = _luminance(f_cos, pairs, x, densities, places)
     return RglTable(
         grid,
@@ -187,12 +189,6 @@ def rgl_table(solver: BsdfSolver, grid: RglGrid, shades: Shades, observer: Obser
         luminance.reshape(slices, grid.samples, grid.samples),
         values.reshape(slices, grid.samples, grid.samples, shades.count),
     )
-
-
-def _square(samples: int) -> FloatArray:
-    """Points of the square, (N^2, 2), x fastest."""
-    x, y = np.meshgrid(np.linspace(0, 1, samples), np.linspace(0, 1, samples))
-    return np.stack([x.ravel(), y.ravel()], axis=-1)
 
 
 def _luminance(

@@ -13,7 +13,16 @@ from numpy.typing import NDArray
 
 from nacreous.tables.axes import MAX_COUNTED_THETA
 
-__all__ = ["LADDERS", "RglGrid", "phi_of", "theta_of", "unit_of_phi", "unit_of_theta", "unit_vectors"]
+__all__ = [
+    "LADDERS",
+    "RglGrid",
+    "phi_of",
+    "square_points",
+    "theta_of",
+    "unit_of_phi",
+    "unit_of_theta",
+    "unit_vectors",
+]
 
 FloatArray = NDArray[np.float64]
 
@@ -73,13 +82,13 @@ class RglGrid:
         return slices * (self.rows * self.columns + (channels + 1) * self.samples**2) + facets
 
 
-_ISOTROPIC = {"rows": 32, "columns": 256, "facet_azimuths": 2, "facet_tilts": 2048}
+_ISOTROPIC = {"rows": 64, "columns": 128, "facet_azimuths": 2, "facet_tilts": 2048}
 _ANISOTROPIC = {"rows": 48, "columns": 64, "facet_azimuths": 256, "facet_tilts": 512}
 
 LADDERS: dict[bool, tuple[RglGrid, ...]] = {
     False: tuple(
         RglGrid(1, tilts, samples, **_ISOTROPIC)
-        for tilts, samples in ((24, 24), (32, 32), (48, 32), (36, 38), (28, 44), (48, 48))
+        for tilts, samples in ((24, 24), (32, 32), (28, 38), (28, 44), (36, 48), (48, 48))
     ),
     True: tuple(
         RglGrid(azimuths, tilts, samples, **_ANISOTROPIC)
@@ -87,6 +96,12 @@ LADDERS: dict[bool, tuple[RglGrid, ...]] = {
     ),
 }
 """Grids to choose from, small ones first, for isotropic (False) and anisotropic (True) surfaces."""
+
+
+def square_points(places: FloatArray) -> FloatArray:
+    """Return the points of the square with these places on either side, (N^2, 2), x fastest."""
+    x, y = np.meshgrid(places, places)
+    return np.stack([x.ravel(), y.ravel()], axis=-1)
 
 
 def theta_of(u: FloatArray) -> FloatArray:

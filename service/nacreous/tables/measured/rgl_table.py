@@ -11,7 +11,7 @@ from nacreous.tables.measured.multilinear import interval
 from nacreous.tables.measured.rgl_grid import RglGrid, unit_of_phi, unit_of_theta
 from nacreous.tables.table import Variable
 
-__all__ = ["RglTable", "angles_of", "looked_up"]
+__all__ = ["RglTable", "angles_of", "jacobian", "looked_up"]
 
 FloatArray = NDArray[np.float64]
 
@@ -48,9 +48,7 @@ class RglTable:
         slices, weights = _slices(self.grid, theta_i, phi_i)
         s = self.densities.inverse(x, y, slices, weights)
         values = bilinear(self.values, *s, slices, weights)
-        ndf = looked_up(self.ndf, x, y)
-        sigma = looked_up(self.sigma, unit_of_theta(theta_i), unit_of_phi(phi_i))
-        return np.asarray(values * (ndf / (4 * sigma))[:, None])
+        return np.asarray(values * jacobian(self.ndf, self.sigma, pairs.incoming, x, y)[:, None])
 
     def variables(self, name: str, channel: str) -> dict[str, Variable]:
         """Return the arrays of a file, in the order of their axes there."""
@@ -86,6 +84,14 @@ def _slices(grid: RglGrid, theta: FloatArray, phi: FloatArray) -> tuple[NDArray[
         around = [(first, 1 - share), (first + 1, share)]
     corners = [(q * grid.tilts + i, a * b) for q, a in around for i, b in tilts]
     return np.stack([c[0] for c in corners], -1), np.stack([c[1] for c in corners], -1)
+
+
+def jacobian(
+    ndf: FloatArray, sigma: FloatArray, incoming: FloatArray, x: FloatArray, y: FloatArray
+) -> FloatArray:
+    """Return ndf / (4 sigma) as a reader has it, for light (P, 3) and facets at points of the square (P,)."""
+    theta, phi = angles_of(incoming)
+    return looked_up(ndf, x, y) / (4 * looked_up(sigma, unit_of_theta(theta), unit_of_phi(phi)))
 
 
 def looked_up(table: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
