@@ -88,9 +88,9 @@ class Quota:
         return [file for file in found if not file.is_hidden and counted_bytes(file.folders, 1)]
 
     def _stays(self, file: Found) -> bool:
-        """Return whether a file is there to stay; what a killed writer has left is removed."""
+        """Return whether a file is an entry or becomes one; what a killed writer has left is removed."""
         if not is_incoming(file.name):
-            return True
+            return not file.is_hidden
         with opened_folder(self._root, file.folders) as folder:
             return not remove_abandoned(file.name, folder)
 
