@@ -1,7 +1,7 @@
 """An entry is read back as it was written, or not at all."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nacreous.errors import StoreError
@@ -16,12 +16,14 @@ JSON = st.recursive(
 ENTRIES = st.builds(Entry, st.dictionaries(st.text(), JSON, max_size=4), st.binary(max_size=200))
 
 
+@settings(deadline=None)
 @given(ENTRIES)
 def test_reads_what_was_written(entry: Entry) -> None:
     """Whatever JSON and whatever bytes: both come back."""
     assert Entry.from_bytes(entry.to_bytes(KEY), KEY) == entry
 
 
+@settings(deadline=None)
 @given(ENTRIES, st.data())
 def test_shows_every_changed_bit(entry: Entry, data: st.DataObject) -> None:
     """No bit of the object is without meaning, the line ends between its parts included."""
@@ -32,6 +34,7 @@ def test_shows_every_changed_bit(entry: Entry, data: st.DataObject) -> None:
         Entry.from_bytes(bytes(stored), KEY)
 
 
+@settings(deadline=None)
 @given(ENTRIES, st.data())
 def test_shows_every_cut(entry: Entry, data: st.DataObject) -> None:
     """A part of an object is no entry, wherever it ends."""
@@ -40,6 +43,7 @@ def test_shows_every_cut(entry: Entry, data: st.DataObject) -> None:
         Entry.from_bytes(stored[: data.draw(st.integers(0, len(stored) - 1))], KEY)
 
 
+@settings(deadline=None)
 @given(ENTRIES, st.binary(min_size=1))
 def test_shows_what_has_been_added(entry: Entry, more: bytes) -> None:
     """Nor is an object with anything behind it."""
@@ -47,6 +51,7 @@ def test_shows_what_has_been_added(entry: Entry, more: bytes) -> None:
         Entry.from_bytes(entry.to_bytes(KEY) + more, KEY)
 
 
+@settings(deadline=None)
 @given(ENTRIES)
 def test_is_of_one_key(entry: Entry) -> None:
     """A sound object under another entry's name is not that entry."""

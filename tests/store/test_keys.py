@@ -3,7 +3,7 @@
 import os
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nacreous.store.keys import check_key, check_prefix, is_key
@@ -39,6 +39,7 @@ def test_refuses_every_other_name(key: str) -> None:
         check_key(key)
 
 
+@settings(deadline=None)
 @given(PATHS)
 def test_stays_below_the_root(key: str) -> None:
     """Resolving a key's dots and slashes changes nothing: it was a plain path downwards."""
@@ -54,6 +55,7 @@ def test_refuses_prefixes_that_no_key_has(prefix: str) -> None:
         check_prefix(prefix)
 
 
+@settings(deadline=None)
 @given(st.from_regex(r"[a-z]{1,3}(/[a-z.]{1,3}){0,3}", fullmatch=True).filter(is_key), st.data())
 def test_takes_every_prefix_of_a_key(key: str, data: st.DataObject) -> None:
     """What a key begins with may be asked for."""

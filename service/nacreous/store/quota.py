@@ -53,7 +53,7 @@ class Quota:
         last change, and somebody may have copied files into the folder.
         """
         with held(self._root) as account:
-            if not self._has_counted:
+            if not self._has_counted or not account.is_kept:
                 self._recount(account)
                 self._has_counted = True
             yield account
