@@ -1,6 +1,7 @@
 """A store keeps its promises at every kind of place."""
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -106,6 +107,22 @@ def test_only_what_was_read_is_set_aside(place: Callable[[Path], Objects], tmp_p
     assert objects.read(KEY) == b"new"
     objects.set_aside(KEY, b"new")
     assert objects.read(KEY) is None
+
+
+def test_serves_several_threads(store: Store) -> None:
+    """Threads that replace, read, list and delete the same entries see whole ones or none."""
+
+    def use(number: int) -> None:
+        key, entry = f"tables/{number % 3}", Entry({"number": number}, bytes([number]) * 1000)
+        store.put(key, entry)
+        found = store.get(key)
+        assert found is None or found.payload == bytes([found.facts["number"]]) * 1000
+        assert set(store.keys()) <= {"tables/0", "tables/1", "tables/2"}
+        store.delete(key)
+
+    with ThreadPoolExecutor(4) as threads:
+        list(threads.map(use, range(40)))
+    assert (list(store.keys()), store.size_bytes(), store.quarantined) == ([], 0, 0)
 
 
 def test_says_that_it_can_be_written(store: Store) -> None:
