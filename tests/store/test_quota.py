@@ -134,6 +134,21 @@ def test_quarantine_counts_and_goes_first(tmp_path: Path) -> None:
     assert sorted(store.keys()) == ["tables/new", "tables/old"]
 
 
+def test_files_of_other_people_stay(tmp_path: Path) -> None:
+    """Naming a folder in use as the store's, by mistake, loses nothing that is no entry."""
+    (tmp_path / "tables").mkdir()
+    theirs = {tmp_path / "thesis.txt": b"x" * 3000, tmp_path / "tables" / "data.csv": b"1," * 10}
+    for path, content in theirs.items():
+        path.write_bytes(content)
+    store = open_store(str(tmp_path), 4 * KIBIBYTE)
+    for number in range(10):
+        store.put(f"tables/{number}", entry(500))
+    with pytest.raises(StoreError, match="files that cannot be evicted leave no room"):
+        store.put("tables/large", entry(2000))
+    assert {path: path.read_bytes() for path in theirs} == theirs
+    assert on_disk(tmp_path) <= 4 * KIBIBYTE
+
+
 def test_counts_what_others_have_copied_in(tmp_path: Path) -> None:
     """A process counts the folder when it first writes, so a ledger that was wrong is right again."""
     open_store(str(tmp_path)).put("tables/0", entry(1000))

@@ -132,6 +132,8 @@ def open_store(url: str, quota_bytes: int | None = None) -> Store:
     ...     store.get("tables/ab/ab12.exr").payload
     b'a texture'
     """
+    if not url:
+        raise StoreError("expected a folder or a URL for the store, got an empty name")
     protocol, path = split_protocol(url)
     if protocol in _LOCAL:
         return Store(FolderObjects(Path(path).expanduser(), quota_bytes))
