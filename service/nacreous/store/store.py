@@ -78,8 +78,8 @@ class Store:
         Raises
         ------
         StoreError
-            The disk is full, the entry is larger than the quota, or the place cannot be reached or written; no
-            part of the entry is there.
+            The disk is full, the entry is larger than the quota, or the place cannot be reached or written;
+            no part of the entry is there.
         """
         check_key(key)
         self._objects.write(key, entry.to_bytes(key))
