@@ -23,7 +23,7 @@ open_store(sys.argv[1]).put(sys.argv[2], Entry({"id": "ab12"}, b"a texture"))
 
 
 def test_the_environment_says_where_s3_is(bucket: str, s3_endpoint: str) -> None:
-    """The variables that `nacreous.store.remote` names are enough for another process; its entries are seen."""
+    """The variables named in `nacreous.store.remote` are enough for another process, whose entry is seen."""
     store = open_store(bucket)
     store.put("tables/ab/other.exr", ENTRY)
     assert (list(store.keys()), store.has(KEY)) == (["tables/ab/other.exr"], False)
