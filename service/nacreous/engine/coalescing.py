@@ -1,0 +1,3 @@
+"""One computation for all who ask for the same while it is under way."""
+
+__all__: list[str] = []
