@@ -135,15 +135,15 @@ class Jobs:
         """
         raise NotImplementedError
 
-    async def get(self, id: str) -> Job:
+    async def get(self, job_id: str) -> Job:
         """Return a job as it is now; raises `MissingError`."""
         raise NotImplementedError
 
-    async def cancel(self, id: str) -> Job:
+    async def cancel(self, job_id: str) -> Job:
         """End a job, whose finished tables stay; one that has ended is left alone. Raises `MissingError`."""
         raise NotImplementedError
 
-    def events(self, id: str) -> AsyncIterator[Job]:
+    def events(self, job_id: str) -> AsyncIterator[Job]:
         """Yield a job as it is now and at every change, to the last.
 
         Who reads slowly misses what was in between, never the last. `MissingError` comes at the first step.
