@@ -118,6 +118,25 @@ def test_a_cancelled_job_ends_and_stays_so(tmp_path: Path) -> None:
     asyncio.run(test())
 
 
+def test_a_table_in_hand_is_given_up_with_its_job(tmp_path: Path) -> None:
+    """What waits for the engine when its job is cancelled is never computed, and others go on."""
+
+    async def test() -> None:
+        async with opened(tmp_path) as rooms:
+            await rooms.engine.stop()
+            await rooms.jobs.start()
+            left = await rooms.jobs.add(small_sweep(3, ("npz",)))
+            async for job in rooms.jobs.events(left.id):
+                if job.state is JobState.RUNNING:
+                    break
+            await rooms.jobs.cancel(left.id)
+            await rooms.engine.start()
+            assert (await _done(rooms, small_sweep(2))).done == 2
+            assert rooms.engine.computed == 2
+
+    asyncio.run(test())
+
+
 def test_a_job_can_be_cancelled_in_another_process(tmp_path: Path) -> None:
     """Several servers share one store: the one that computes finds it in the manifest."""
 
@@ -163,7 +182,7 @@ def test_a_full_store_stops_a_job_that_can_go_on_later(tmp_path: Path) -> None:
             job = await _done(rooms, sweep)
             assert (job.state, job.done) == (JobState.FAILED, 0)
             assert "quota" in job.error
-            assert (await _done(rooms, sweep)).error == job.error
+            assert "quota" in (await _done(rooms, sweep)).error
             assert list(rooms.store.keys("tables/")) == []
         async with opened(tmp_path) as rooms:
             await rooms.jobs.start()

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from nacreous.engine.files import file_key, table_key
-from nacreous.errors import MissingError, SpecError
+from nacreous.errors import MissingError, SpecError, StoreError
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import write
 from nacreous.tables.spec import LABELS
@@ -133,11 +133,13 @@ def test_what_cannot_be_stored_is_answered(tmp_path: Path) -> None:
 
 
 def test_a_store_that_cannot_be_read_is_one_that_has_nothing(tmp_path: Path) -> None:
-    """Where the folder's place is taken by a file, tables are computed all the same."""
-    (tmp_path / "store").write_text("no folder")
+    """Where a folder has taken the place of an entry, the table is computed all the same."""
+    (tmp_path / file_key(small_work())).mkdir(parents=True)
 
     async def test() -> None:
-        async with opened(tmp_path / "store") as rooms:
+        async with opened(tmp_path) as rooms:
+            with pytest.raises(StoreError):
+                rooms.store.get(file_key(small_work()))
             assert (await rooms.library.file(small_work())).payload
             assert rooms.library.uncached == 1
 
