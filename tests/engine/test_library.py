@@ -132,14 +132,17 @@ def test_what_cannot_be_stored_is_answered(tmp_path: Path) -> None:
     asyncio.run(test())
 
 
-def test_a_store_that_cannot_be_read_is_one_that_has_nothing(tmp_path: Path) -> None:
-    """Where a folder has taken the place of an entry, the table is computed all the same."""
-    (tmp_path / file_key(small_work())).mkdir(parents=True)
+def test_a_store_that_cannot_be_reached_is_one_that_has_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nobody listens at the S3 endpoint, tables are computed, answered and counted."""
+    monkeypatch.setenv("AWS_ENDPOINT_URL", "http://127.0.0.1:9")
+    monkeypatch.setenv("AWS_ACCESS_KEY_ID", "nobody")
+    monkeypatch.setenv("AWS_SECRET_ACCESS_KEY", "nothing")
+    monkeypatch.setenv("AWS_MAX_ATTEMPTS", "1")
 
     async def test() -> None:
-        async with opened(tmp_path) as rooms:
+        async with opened("s3://nowhere/store") as rooms:
             with pytest.raises(StoreError):
-                rooms.store.get(file_key(small_work()))
+                await rooms.library.record(small_work().id)
             assert (await rooms.library.file(small_work())).payload
             assert rooms.library.uncached == 1
 
