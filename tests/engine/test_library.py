@@ -200,6 +200,8 @@ def test_an_evicted_file_is_computed_from_its_record(tmp_path: Path) -> None:
                 await rooms.library.table_file(added.id, ".png")
             assert rooms.engine.computed == 0
 
+    asyncio.run(test())
+
 
 def test_a_record_that_has_gone_comes_back_with_its_spec(tmp_path: Path) -> None:
     """Whoever asks with the spec at hand mends what eviction has taken."""
