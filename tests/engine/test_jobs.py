@@ -10,9 +10,10 @@ from nacreous.engine.in_process import InProcessEngine
 from nacreous.engine.job import JOBS, Manifest, manifest_key
 from nacreous.engine.jobs import Job, JobLimits, JobState
 from nacreous.engine.sweep import Sweep
-from nacreous.engine.work import compute
-from nacreous.errors import BusyError, MissingError, SpecError
-from small_library import Rooms, ended, opened, small_spec, small_sweep, small_work, together
+from nacreous.engine.work import Product, Work, compute
+from nacreous.errors import BusyError, MissingError, SpecError, UnavailableError
+from nacreous.opencl.tiles import Observer
+from small_library import Rooms, ended, opened, small_spec, small_sweep, small_work
 
 TOO_THICK_NM = 5e6
 """Of a layer whose fringes no quadrature resolves: found out where its colour is computed."""
@@ -301,20 +302,36 @@ def test_what_is_no_job_is_missing(tmp_path: Path) -> None:
     asyncio.run(test())
 
 
+class RefusingEngine(InProcessEngine):
+    """Notes that it has refused a table so often that a ready engine would be given up."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.refused, self.has_refused = 0, asyncio.Event()
+
+    async def compute(self, work: Work, observer: Observer | None = None) -> Product:
+        """Compute, or note that it cannot be."""
+        try:
+            return await super().compute(work, observer)
+        except UnavailableError:
+            self.refused += 1
+            if self.refused == 4:
+                self.has_refused.set()
+            raise
+
+
 def test_an_engine_that_is_not_ready_is_waited_for(tmp_path: Path) -> None:
-    """A job that is resumed before the engine has started loses no table to that."""
+    """A job that is resumed before the engine has started loses no table to that, however long it takes."""
 
     async def test() -> None:
-        async with opened(tmp_path) as rooms:
-            await rooms.engine.stop()
+        engine = RefusingEngine()
+        async with opened(tmp_path, engine=engine) as rooms:
+            await engine.stop()
             await rooms.jobs.start()
-            job_id = (await rooms.jobs.add(small_sweep(2))).id
-            running = asyncio.create_task(ended(rooms.jobs, job_id))
-            async for job in rooms.jobs.events(job_id):
-                if job.state is JobState.RUNNING:
-                    break
-            await rooms.engine.start()
-            assert (await running).failed == 0
-            await together(running)
+            running = asyncio.create_task(_done(rooms, small_sweep(2)))
+            await engine.has_refused.wait()
+            await engine.start()
+            job = await running
+            assert (job.done, job.failed) == (2, 0)
 
     asyncio.run(test())
