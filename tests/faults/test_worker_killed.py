@@ -123,6 +123,7 @@ def test_stop_ends_every_process() -> None:
 
 def test_a_stop_waits_no_longer_than_its_grace() -> None:
     """A kernel that never ends is ended after the grace time, and its caller told."""
+
     async def stopped() -> None:
         async with running(faulty("endless", grace_s=0.2)) as engine:
             begun = asyncio.Event()
