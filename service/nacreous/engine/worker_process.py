@@ -150,7 +150,7 @@ class WorkerProcess:
     async def _write(self, message: Message) -> None:
         assert self._process.stdin is not None  # noqa: S101 - it has been started with PIPE
         try:
-            self._process.stdin.write(message.to_bytes())
+            self._process.stdin.writelines(message.pieces())
             await self._process.stdin.drain()
         except OSError as error:
             raise WorkerLostError from error
