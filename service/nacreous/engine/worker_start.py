@@ -56,7 +56,7 @@ class WorkerStarter:
     async def start(self) -> WorkerProcess:
         """Return a worker that is ready; raises `DeviceError` with the reason where none is, in one line."""
         try:
-            await asyncio.to_thread(self._prepare)
+            await self._prepared()
             worker = await self._ready_worker()
         except (DeviceError, OSError, StartError) as error:
             without_device = isinstance(error, StartError) and error.cause == "device"
@@ -79,6 +79,14 @@ class WorkerStarter:
         if self._scratch:
             shutil.rmtree(self._scratch, ignore_errors=True)
         self._cache = self._scratch = None
+
+    async def _prepared(self) -> None:
+        """Prepare in a thread: a disk may be slow. It takes a lock, so that it is waited for in any case."""
+        preparing = asyncio.create_task(asyncio.to_thread(self._prepare))
+        try:
+            await asyncio.shield(preparing)
+        finally:
+            await asyncio.wait([preparing])
 
     def _prepare(self) -> None:
         """Have folders for a worker: for its kernels, and for files that are gone with it."""
