@@ -87,6 +87,7 @@ def test_a_worker_that_dies_while_it_starts_is_started_again() -> None:
                 await asyncio.sleep(0.01)
             children[0].kill()
             assert (await waiting).files
+            assert engine.kernel_wipes == 0
 
     patiently(killed())
 

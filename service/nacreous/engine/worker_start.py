@@ -58,9 +58,8 @@ class WorkerStarter:
         try:
             await self._prepared()
             worker = await self._ready_worker()
-        except (DeviceError, OSError, StartError) as error:
-            without_device = isinstance(error, StartError) and error.cause == "device"
-            self.failures = max(self.failures, _FREE_STARTS - 1 if without_device else 0) + 1
+        except (DeviceError, OSError) as error:
+            self.failures += 1
             raise DeviceError(_one_line(error)) from error
         self.failures = 0
         return worker
@@ -99,8 +98,6 @@ class WorkerStarter:
         if self._cache and (self.failures >= _FREE_STARTS - 1 or not self._cache.usable):
             self._cache.release()
             self._cache = None
-        if self.failures == 1:
-            self.suspect_kernels()
         if self._cache is None:
             elsewhere = self.failures >= _FREE_STARTS - 1
             self._cache = take_temporary_cache() if elsewhere else take_cache(self._settings.cache_folder)
@@ -110,15 +107,23 @@ class WorkerStarter:
         try:
             async with asyncio.timeout(self._settings.start_s):
                 await worker.ready()
-        except WorkerLostError:
-            raise DeviceError(await worker.ended()) from None
-        except TimeoutError:
-            await worker.close(0)
-            raise DeviceError(f"the worker is not ready within {self._settings.start_s:g} s") from None
+        except (StartError, TimeoutError, WorkerLostError) as error:
+            raise DeviceError(await self._why(worker, error)) from error
         except BaseException:
             await worker.close(0)
             raise
         return worker
+
+    async def _why(self, worker: WorkerProcess, error: Exception) -> str:
+        """Return why a worker is not ready, once it has ended; do what may help the next one."""
+        await worker.close(0)
+        if isinstance(error, StartError) and error.cause == "device":
+            self.failures = max(self.failures, _FREE_STARTS - 1)  # nothing else can be tried
+        elif isinstance(error, StartError | TimeoutError) or not worker.killed:
+            self.suspect_kernels()
+        if isinstance(error, TimeoutError):
+            return f"the worker is not ready within {self._settings.start_s:g} s"
+        return str(error) if isinstance(error, StartError) else await worker.ended()
 
     def _environment(self) -> dict[str, str]:
         """Return the worker's environment: this process's own, and what the settings say."""
