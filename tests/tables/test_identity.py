@@ -1,5 +1,8 @@
 """A table's id: what decides it, and what does not."""
 
+import shutil
+from pathlib import Path
+
 import pytest
 
 from nacreous.opencl import sources
@@ -99,9 +102,12 @@ def test_a_materials_data_matters(monkeypatch: pytest.MonkeyPatch) -> None:
     assert table_id(spec) != before
 
 
-def test_the_kernels_matter(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_kernels_matter(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Another kernel text is another table."""
     before = _id()
-    known = sources.complete_source
-    monkeypatch.setattr(sources, "complete_source", lambda kernel: known(kernel) + "// another\n")
+    kernels = shutil.copytree(sources.KERNELS, tmp_path / "kernels")
+    monkeypatch.setattr(sources, "KERNELS", kernels)
+    assert _id() == before
+    film = kernels / "film.clh"
+    film.write_text(film.read_text() + "// another\n")
     assert _id() != before

@@ -1,5 +1,6 @@
 """What is asked of an engine, and what comes of it: the files of one format of one spec."""
 
+import shutil
 import tempfile
 import time
 from collections.abc import Mapping
@@ -15,6 +16,11 @@ from nacreous.tables.spec import Spec
 from nacreous.tables.tabulate import Observer, tabulate_table
 
 __all__ = ["File", "Product", "Work", "compute"]
+
+
+_MEMORY = Path("/dev/shm")  # noqa: S108 - TemporaryDirectory makes a folder that is this user's alone
+_MOST_BYTES = 2**30
+"""More than the files of any format take together."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +107,16 @@ def compute(work: Work, observer: Observer | None = None) -> Product:
     table = tabulate_table(
         work.spec, parts_of([work.target], work.spec), sampling=work.target.sampling, observer=observer
     )
-    with tempfile.TemporaryDirectory(prefix="nacreous-") as folder:
+    with tempfile.TemporaryDirectory(prefix="nacreous-", dir=_scratch()) as folder:
         paths = work.target.write(table, Path(folder, f"{work.name}{work.target.suffix}"))
         files = tuple(File(path.name.removeprefix(work.name), path.read_bytes()) for path in paths)
     return Product(table.id, files, table.certificate, time.perf_counter() - began)
+
+
+def _scratch() -> Path | None:
+    """Return where files are made that are read at once and gone: in memory, where it has room for them."""
+    try:
+        roomy = shutil.disk_usage(_MEMORY).free > _MOST_BYTES
+    except OSError:
+        return None
+    return _MEMORY if roomy else None

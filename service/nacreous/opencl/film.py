@@ -14,6 +14,9 @@ __all__ = ["GROUPS", "NAMES", "film_intensities", "spectral_rows"]
 
 NAMES = ("R_s", "R_p", "T_s", "T_p")
 
+_MOST_PADDING = 1.25
+"""Width of a row on the device, over that of the table, up to which it is kept as it is, padding and all."""
+
 GROUPS = {"cpu": (16, 4), "gpu": (32, 4), "other": (1, 1)}
 """Work-group sizes (blocks of wavelengths, rows) by kind of device; PoCL compiles anew for each size."""
 
@@ -60,9 +63,13 @@ def spectral_rows(
     lanes = lanes or device.lanes(precision)
     kernel = kernel_of(device, Build(kernel_name, precision, lanes, problem.build_numbers))
     buffers = film_buffers(device, problem, precision, lanes)
-    results = empty_tables(len(names), rows, wavelengths, precision.dtype)
+    columns = buffers.stride if buffers.stride <= _MOST_PADDING * wavelengths else wavelengths
+    results = empty_tables(len(names), rows, columns, precision.dtype)
     runner = TileRunner(device, kernel, results, buffers.stride, GROUPS[device.info.kind])
     bytes_a_row = buffers.stride * len(names) * item
     for tile in row_tiles(rows, problem.layer_evaluations_a_row, bytes_a_row, observer):
         runner.run(tile, (*buffers.arguments, *tile.bounds), (buffers.stride // lanes, tile.rows))
-    return {name: values.reshape(problem.shape) for name, values in zip(names, results, strict=True)}
+    shape = (*problem.shape[:2], columns)
+    return {
+        name: values.reshape(shape)[..., :wavelengths] for name, values in zip(names, results, strict=True)
+    }

@@ -4,8 +4,10 @@ Includes are expanded here because a path with a space breaks ``-I`` on PoCL, an
 what identifies a kernel in a table's provenance. ``#line`` directives keep the compiler's messages true.
 """
 
+import functools
 import hashlib
 import re
+from pathlib import Path
 
 from nacreous.paths import KERNELS
 
@@ -26,6 +28,12 @@ def complete_source(kernel: str) -> str:
 
 def kernels_hash() -> str:
     """SHA-256, in hex, over the complete text of every kernel."""
+    return _hash_of(tuple((file, file.stat().st_mtime_ns) for file in sorted(KERNELS.glob("*.cl*"))))
+
+
+@functools.lru_cache(maxsize=1)
+def _hash_of(_: tuple[tuple[Path, int], ...]) -> str:
+    """Compute the hash for files as they are: it is asked for with every table."""
     digest = hashlib.sha256()
     for name in kernel_names():
         digest.update(complete_source(name).encode())

@@ -179,9 +179,11 @@ def _stacked(intensities: dict[str, NDArray[np.floating]]) -> FloatArray:
 
 def _texels(solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring) -> FloatArray:
     """Colours at the cells' corners, as the table has them: (sides, 2 S, 2 A, 3)."""
-    grid = Grid(scales.corners, angles.corners, colouring.quadrature_nm)
+    scale, at_scale = np.unique(scales.corners, return_inverse=True)  # neighbours share their corners
+    mu, at_mu = np.unique(angles.corners, return_inverse=True)
+    grid = Grid(scale, mu, colouring.quadrature_nm)
     colours = [solver.colour(grid, colouring.weights, side) for side in solver.sides]
-    return np.stack([np.asarray(colour, np.float64) for colour in colours])
+    return np.stack([np.asarray(colour, np.float64) for colour in colours])[:, at_scale][:, :, at_mu]
 
 
 def _exact_colours(
