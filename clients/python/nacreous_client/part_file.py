@@ -105,6 +105,7 @@ class PartFile:
         if self._file is None:
             raise ValueError("a part is begun before bytes are appended to it")
         self._file.write(chunk)
+        self._file.flush()  # what has come outlives the process, if it is killed
         self._count(chunk)
 
     def _count(self, block: bytes) -> None:
