@@ -13,7 +13,7 @@ from functools import partial
 from typing import Any
 
 from nacreous.engine.coalescing import Coalescing
-from nacreous.engine.engine import Engine
+from nacreous.engine.engine import Engine, Readiness
 from nacreous.engine.files import (
     RECORD_SUFFIX,
     check_table_id,
@@ -103,6 +103,11 @@ class Library:
     def coalesced(self) -> int:
         """Requests that waited for what another had begun."""
         return self._reads.joined + self._works.joined
+
+    @property
+    def ready(self) -> bool:
+        """Whether the engine takes work."""
+        return self._engine.state.readiness is Readiness.READY
 
     def hot(self, table_id: str, suffix: str) -> Entry | None:
         """Return a file that is in memory, at once; None where it is not, which says nothing of the store."""
