@@ -125,7 +125,7 @@ def _methods(request: Request) -> list[str]:
 
 async def _validation_problem(_: Request, error: Exception) -> Response:
     """Answer what FastAPI refuses, without what it was; routes read parameters and bodies by themselves."""
-    assert isinstance(error, RequestValidationError)
-    where = ".".join(map(str, error.errors()[0]["loc"]))
+    found = error.errors() if isinstance(error, RequestValidationError) else []
+    where = ".".join(str(part) for first in found[:1] for part in first["loc"])
     status = HTTPStatus.UNPROCESSABLE_ENTITY
     return Problem(status, "request", f"the request cannot be used: {shown(where)}").response()

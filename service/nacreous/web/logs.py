@@ -42,7 +42,7 @@ def configure(level: str) -> None:
     )
 
 
-def log_request(  # noqa: PLR0913 - one a field of the line
+def log_request(
     request_id: str, method: str, route: str, status: int, seconds: float, sent_bytes: int
 ) -> None:
     """Log one request: the route's template, never the path itself."""

@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from prometheus_client import CollectorRegistry, Counter, Histogram
@@ -112,8 +113,6 @@ class ServiceCollector(Collector):
             "nacreous_store_quarantined", "Damaged entries put aside.", value=store.quarantined
         )
         size = GaugeMetricFamily("nacreous_store_bytes", "Bytes that the store holds.")
-        try:
+        with suppress(StoreError):  # a store that cannot be read has no size; /readyz says why
             size.add_metric([], store.size_bytes())
-        except StoreError:
-            pass  # a store that cannot be read has no size; /readyz says why
         yield size

@@ -1,4 +1,4 @@
-"""The outermost layers of every request: what it came to is counted and logged, and every error is an answer."""
+"""The outermost layers: what a request came to is counted and logged, and every error is an answer."""
 
 import logging
 import secrets

@@ -1,4 +1,4 @@
-"""Presets as the service hands them out: as they are, at one thickness, or over an axis that a link asks for."""
+"""Presets as the service hands them out: as they are, at one thickness, or over an axis of a link's own."""
 
 import math
 from functools import lru_cache

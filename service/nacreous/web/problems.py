@@ -32,8 +32,8 @@ __all__ = ["MAX_BYTES", "MEDIA_TYPE", "Problem", "ProblemError", "problem_of"]
 MEDIA_TYPE = "application/problem+json"
 MAX_BYTES = 4096
 _MOST_CHARACTERS = 400
-"""Of one text of a problem; five of them, each character escaped as six, and the rest stay below 4 KB … unless
-they are not ASCII: `Problem.body` then shortens them further."""
+"""Of one text of a problem. There are five: in ASCII all fit, and where JSON escapes most of their characters
+with six each, `Problem.body` shortens them further."""
 
 
 @dataclass(frozen=True)

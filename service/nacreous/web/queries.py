@@ -1,4 +1,4 @@
-"""Query parameters: only those that a route knows, each at most once, and in the words of the domain's errors.
+"""Query parameters: only those that a route knows, each at most once, refused in the words of a spec's.
 
 An unknown parameter is refused with 422 like an unknown field of a spec: a link with a slip of the keyboard
 must not answer with something else than was meant.

@@ -10,8 +10,8 @@ from nacreous.engine.work import Work
 from nacreous.errors import BudgetError
 from nacreous.opencl.budget import byte_budget
 from nacreous.tables.axes import cos_theta_values, thickness_scale_values, wavelength_values_nm
-from nacreous.tables.spec import Spec, bsdf_angles, roughness_values
 from nacreous.tables.sampling import Sampling
+from nacreous.tables.spec import Spec, bsdf_angles, roughness_values
 from nacreous.tables.table import Part
 
 __all__ = ["check_size"]

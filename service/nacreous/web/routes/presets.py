@@ -32,8 +32,8 @@ PresetName = Annotated[
 ]
 _SCALE = query_parameter(
     "thickness_scale",
-    "A number: one factor on every layer's thickness, for a table of that one film. Or the axis of the table, "
-    "written as in a spec: [0.5, 1] or { start = 0.5, stop = 1, count = 8 }.",
+    "A number: one factor on every layer's thickness, for a table of that one film. Or the axis of the "
+    "table, written as in a spec: [0.5, 1] or { start = 0.5, stop = 1, count = 8 }.",
     {"anyOf": [{"type": "number", "minimum": 1e-6, "maximum": 100}, {"type": "string"}]},
 )
 
