@@ -13,13 +13,14 @@ from nacreous.cli.materials import materials
 from nacreous.cli.presets import presets
 from nacreous.cli.preview import preview
 from nacreous.cli.schema import schema
+from nacreous.cli.serve import serve
 from nacreous.cli.tabulate import tabulate
 from nacreous.cli.verify import verify
 from nacreous.errors import NacreousError
 
 __all__ = ["main"]
 
-_COMMANDS = (tabulate, preview, presets, schema, devices, doctor, verify)
+_COMMANDS = (tabulate, preview, presets, schema, devices, doctor, verify, serve)
 
 
 def main() -> None:

@@ -1,7 +1,9 @@
 """An entry of the store: one file and what is known of it, in one object that shows every damage.
 
-The object is the SHA-256, in hex, of all that follows it, a line end, a line of JSON, and the file's bytes.
-One object is written or not, replaced or not, and read as a whole: there is no half of it to be out of step.
+The object is a SHA-256 in hex, a line end, a line of JSON, and the file's bytes. The checksum is of the
+entry's key, a line end, and all that follows the checksum's own line, so that a sound object under another's
+name shows as well. One object is written or not, replaced or not, and read as a whole: there is no half of it
+to be out of step.
 """
 
 import hashlib
@@ -16,6 +18,7 @@ from nacreous.errors import StoreError
 __all__ = ["Entry"]
 
 _HEX_DIGITS = 64
+_BODY = _HEX_DIGITS + 1
 
 
 @dataclass(frozen=True)
@@ -38,23 +41,29 @@ class Entry:
         """SHA-256 of the file, in hex."""
         return hashlib.sha256(self.payload).hexdigest()
 
-    def to_bytes(self) -> bytes:
-        """Return the object that the store keeps."""
+    def to_bytes(self, key: str) -> bytes:
+        """Return the object that the store keeps under `key`."""
         facts = json.dumps(dict(self.facts), sort_keys=True, separators=(",", ":"), allow_nan=False)
         body = facts.encode() + b"\n" + self.payload
-        return hashlib.sha256(body).hexdigest().encode() + b"\n" + body
+        return _checksum(key, body) + b"\n" + body
 
     @classmethod
-    def from_bytes(cls, stored: bytes) -> Self:
+    def from_bytes(cls, stored: bytes, key: str) -> Self:
         """Return the entry of an object; raises `StoreError` where a single bit of it is not as written.
 
         Examples
         --------
-        >>> Entry.from_bytes(Entry({"id": "film"}, b"bytes").to_bytes())
+        >>> Entry.from_bytes(Entry({"id": "film"}, b"bytes").to_bytes("tables/film"), "tables/film")
         Entry(facts={'id': 'film'}, payload=b'bytes')
         """
-        checksum, body = stored[:_HEX_DIGITS], stored[_HEX_DIGITS + 1 :]
-        if hashlib.sha256(body).hexdigest().encode() != checksum or stored[_HEX_DIGITS:][:1] != b"\n":
+        checksum, line_end, body = stored[:_HEX_DIGITS], stored[_HEX_DIGITS:_BODY], stored[_BODY:]
+        if line_end != b"\n" or checksum != _checksum(key, body):
             raise StoreError("expected an entry with its own checksum, got one that has been damaged")
         facts, _, payload = body.partition(b"\n")
         return cls(json.loads(facts), payload)
+
+
+def _checksum(key: str, body: bytes) -> bytes:
+    digest = hashlib.sha256(key.encode() + b"\n")
+    digest.update(body)
+    return digest.hexdigest().encode()

@@ -29,7 +29,9 @@ __all__ = [
     "ThicknessScaleAxis",
     "WavelengthAxis",
     "cos_theta_values",
+    "one_of",
     "phi_values",
+    "range_values",
     "roughness_axis_values",
     "theta_values",
     "thickness_scale_values",
@@ -92,8 +94,11 @@ def _whole_steps(axis: Range) -> float:
 
 
 def _values(axis: Range | tuple[float, ...]) -> FloatArray:
-    if isinstance(axis, tuple):
-        return np.array(axis, np.float64)
+    return range_values(axis) if isinstance(axis, Range) else np.array(axis, np.float64)
+
+
+def range_values(axis: Range) -> FloatArray:
+    """Return the values of a range."""
     steps = int(_whole_steps(axis))
     last = axis.stop if axis.step is None else axis.start + steps * axis.step
     # Where the steps fit, the last value is `stop` itself and not what rounding makes of it.
@@ -149,7 +154,8 @@ def _optional(form: Callable[[object], str | None]) -> Callable[[object], str | 
     return lambda value: _ABSENT if value is None else form(value)
 
 
-def _one_of(form: Callable[[object], str | None], expected: str) -> Discriminator:
+def one_of(form: Callable[[object], str | None], expected: str) -> Discriminator:
+    """Choose among the tagged forms of a value; `expected` is what a value of no form is told."""
     return Discriminator(
         form,
         custom_error_type=REFUSED,
@@ -169,7 +175,7 @@ _PHI = _within(-MAX_PHI, MAX_PHI, " rad")
 
 WavelengthAxis = Annotated[
     Annotated[AxisList, _WAVELENGTH_NM, Tag(_LIST)] | Annotated[Range, _WAVELENGTH_NM, Tag(_RANGE)],
-    _one_of(_spaced_form, "a list, { start, stop, step } or { start, stop, count }"),
+    one_of(_spaced_form, "a list, { start, stop, step } or { start, stop, count }"),
 ]
 """Vacuum wavelengths in nm: a list or a range."""
 
@@ -177,7 +183,7 @@ CosThetaAxis = Annotated[
     Annotated[int, Field(ge=2, le=MAX_POINTS), Tag(_COUNT)]
     | Annotated[AxisList, _COSINE, Tag(_LIST)]
     | Annotated[Range, _COSINE, Tag(_RANGE)],
-    _one_of(_form, "a count over [0, 1], a list, { start, stop, step } or { start, stop, count }"),
+    one_of(_form, "a count over [0, 1], a list, { start, stop, step } or { start, stop, count }"),
 ]
 """Cosines of the angle of incidence: a count over [0, 1], a list or a range."""
 
@@ -185,7 +191,7 @@ ThicknessScaleAxis = Annotated[
     Annotated[Literal[1], BeforeValidator(int), Tag(_COUNT)]
     | Annotated[AxisList, _SCALE, Tag(_LIST)]
     | Annotated[Range, _SCALE, Tag(_RANGE)],
-    _one_of(_scale_form, "1, a list, { start, stop, step } or { start, stop, count }"),
+    one_of(_scale_form, "1, a list, { start, stop, step } or { start, stop, count }"),
 ]
 """Factors on every layer's thickness: 1 for the thickness as it is, a list or a range."""
 
@@ -193,7 +199,7 @@ RoughnessAxis = Annotated[
     Annotated[SliceList, _ROUGHNESS, Tag(_LIST)]
     | Annotated[Range, _ROUGHNESS, Tag(_RANGE)]
     | Annotated[None, Tag(_ABSENT)],
-    _one_of(_optional(_spaced_form), "a list, { start, stop, step } or { start, stop, count }"),
+    one_of(_optional(_spaced_form), "a list, { start, stop, step } or { start, stop, count }"),
 ]
 """Roughness sqrt(alpha_x alpha_y), 0.001 to 1: a list or a range; None where the surface's own is meant."""
 
@@ -202,7 +208,7 @@ PolarAngleAxis = Annotated[
     | Annotated[SliceList, _THETA, Tag(_LIST)]
     | Annotated[Range, _THETA, Tag(_RANGE)]
     | Annotated[None, Tag(_ABSENT)],
-    _one_of(_optional(_form), "a count over 0 to 89 degrees, a list or a range in radians"),
+    one_of(_optional(_form), "a count over 0 to 89 degrees, a list or a range in radians"),
 ]
 """Angles from the normal in radians: a count over 0 to 89 degrees, a list, a range, or None."""
 
@@ -211,7 +217,7 @@ AzimuthAxis = Annotated[
     | Annotated[SliceList, _PHI, Tag(_LIST)]
     | Annotated[Range, _PHI, Tag(_RANGE)]
     | Annotated[None, Tag(_ABSENT)],
-    _one_of(_optional(_form), "a count, a list or a range in radians"),
+    one_of(_optional(_form), "a count, a list or a range in radians"),
 ]
 """Angles about the normal in radians: a count over what symmetry leaves of them, a list, a range, or None."""
 

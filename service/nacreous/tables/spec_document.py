@@ -19,7 +19,7 @@ from pydantic import ValidationError
 from nacreous.errors import SpecError, reason
 from nacreous.optics.value import REFUSED, is_form_tag, shown
 
-__all__ = ["MAX_BYTES", "Syntax", "override", "parse", "read", "spec_error"]
+__all__ = ["MAX_BYTES", "Document", "Syntax", "assigned", "override", "parse", "read", "spec_error"]
 
 Document = dict[str, Any]
 
@@ -193,12 +193,31 @@ def override(document: Document, assignments: Iterable[str]) -> Document:
     """
     for assignment in assignments:
         path, equals, value = assignment.partition("=")
-        parts = [part.strip() for part in path.split(".")]
-        if not equals or not all(parts) or len(parts) > MAX_DEPTH:
+        if not equals or not _is_path(path):
             got = shown(assignment)
             raise SpecError("--set", "FIELD=VALUE", got, "for example --set table.cos_theta=256")
-        document = _assigned(document, parts, _value(value.strip()), path.strip())
+        document = assigned(document, path.strip(), _value(value.strip()))
     return document
+
+
+def assigned(document: Document, path: str, value: object) -> Document:
+    """Return `document` with a value at a dotted path such as ``"stack.layers.0.thickness_nm"``.
+
+    Raises
+    ------
+    SpecError
+        It is no path, or it leads through something that has no such part.
+    """
+    if not _is_path(path):
+        expected = f"the path of a field, of at most {MAX_DEPTH} parts"
+        raise SpecError("", expected, shown(path), 'for example "stack.layers.0.thickness_nm"')
+    parts = [part.strip() for part in path.split(".")]
+    return _assigned(document, parts, value, path)  # type: ignore[no-any-return]
+
+
+def _is_path(path: str) -> bool:
+    parts = path.split(".")
+    return all(part.strip() for part in parts) and len(parts) <= MAX_DEPTH
 
 
 def _value(text: str) -> object:
