@@ -152,10 +152,14 @@ class Job:
         SHA-256, in hex, of the sweep.
     state : str
         ``"queued"``, ``"running"``, ``"done"``, ``"failed"`` or ``"cancelled"``.
-    done, total : int
-        Tables that are there, and tables in all.
+    done, failed, total : int
+        Tables that are there, that could not be made, and in all.
+    fraction : float
+        How much is done, 0 to 1, the table that is being computed included.
     failures : tuple of Failure
         The first few.
+    error : str
+        Why the job as a whole has failed.
     created : str
         ISO 8601.
     formats : tuple of str
@@ -166,8 +170,11 @@ class Job:
     id: str
     state: str
     done: int
+    failed: int
     total: int
+    fraction: float
     failures: tuple[Failure, ...]
+    error: str
     created: str
     formats: tuple[str, ...]
     tables: tuple[JobTable, ...]
@@ -184,10 +191,13 @@ class Job:
             id=_text(document["id"]),
             state=_text(document["state"]),
             done=int(document["done"]),
+            failed=int(document.get("failed", 0)),
             total=int(document["total"]),
+            fraction=float(document.get("fraction", 0)),
             failures=tuple(
                 Failure(int(each["spec"]), str(each["message"])) for each in document.get("failures", ())
             ),
+            error=str(document.get("error", "")),
             created=str(document.get("created", "")),
             formats=tuple(map(str, document.get("formats", ()))),
             tables=tuple(JobTable(each["id"], _links(each)) for each in document.get("tables", ())),

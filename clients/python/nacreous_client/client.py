@@ -12,7 +12,7 @@ import httpx
 from nacreous_client.errors import UnreachableError
 from nacreous_client.operations import Operations
 from nacreous_client.retry import Retry
-from nacreous_client.steps import AwaitedRunner, BlockingRunner, Pause, Reply, Request, Steps
+from nacreous_client.steps import CONTENT, AwaitedRunner, BlockingRunner, Pause, Reply, Request, Steps
 
 __all__ = ["AsyncClient", "Client"]
 
@@ -122,11 +122,11 @@ class AsyncClient(Operations, AwaitedRunner):
 
 
 class _Intake:
-    """Takes an answer: into the request's receiver, or where there is none, or an error, into memory."""
+    """Takes an answer: into the request's receiver, if there is one and the answer has what it is for."""
 
     def __init__(self, request: Request, response: httpx.Response) -> None:
         self._response = response
-        self._receiver = None if response.is_error else request.receiver
+        self._receiver = request.receiver if response.status_code in CONTENT else None
         self._body = bytearray()
         if self._receiver is not None:
             self._receiver.begin(response.status_code, response.headers)

@@ -11,13 +11,15 @@ from dataclasses import dataclass
 from http import HTTPStatus
 from pathlib import Path
 
+from nacreous_client.answers import Job, parsed
 from nacreous_client.errors import AnswerError, ChecksumError, ProblemError
 from nacreous_client.exchange import REPEATED, accepted
+from nacreous_client.jobs import Progress, succeeded, waited
 from nacreous_client.part_file import PartFile
 from nacreous_client.retry import Patience, Retry
-from nacreous_client.steps import Headers, Pause, Request, Steps
+from nacreous_client.steps import CONTENT, Headers, Pause, Request, Steps
 
-__all__ = ["Download", "Received", "download"]
+__all__ = ["Download", "Listeners", "Received", "download"]
 
 Received = Callable[[int, int | None], None]
 """Is told how many bytes have come, and of how many, where the service says so."""
@@ -43,13 +45,26 @@ class Download:
     size_bytes: int
 
 
-def download(link: str, path: Path, received: Received | None, retry: Retry) -> Steps[Download]:
+@dataclass(frozen=True)
+class Listeners:
+    """Who is told how a download goes: of its bytes, and of the job that makes the file before any come."""
+
+    received: Received | None = None
+    progress: Progress | None = None
+
+
+def download(link: str, path: Path, listeners: Listeners, retry: Retry) -> Steps[Download]:
     """Bring the file at a link to a path; raises `ServiceError` and `OSError`."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = PartFile(path)
     try:
         part.resume()
-        yield from _arrival(link, part, received, Patience(retry))
+        job = yield from _arrival(link, part, listeners.received, Patience(retry))
+        if job is not None:
+            succeeded((yield from waited(job, listeners.progress, retry)))
+            job = yield from _arrival(link, part, listeners.received, Patience(retry))
+        if job is not None:
+            raise AnswerError(f"expected the file of job {job.id[:16]}…, which is done, got another job")
         found = Download(path, part.sha256, part.size)
         part.complete()
     finally:
@@ -57,13 +72,18 @@ def download(link: str, path: Path, received: Received | None, retry: Retry) -> 
     return found
 
 
-def _arrival(link: str, part: PartFile, received: Received | None, patience: Patience) -> Steps[None]:
-    """Ask until all has come; an attempt that brought something new is none of those that are counted."""
+def _arrival(link: str, part: PartFile, received: Received | None, patience: Patience) -> Steps[Job | None]:
+    """Ask until all has come, or return the job that the file has to be waited for.
+
+    An attempt that brought something new is none of those that are counted.
+    """
     while True:
         before = (part.sha256, part.size)
         try:
-            accepted((yield Request("GET", link, _asked(part), receiver=_Arrival(part, received))))
-            return _check(part)
+            reply = accepted((yield Request("GET", link, _asked(part), receiver=_Arrival(part, received))))
+            if reply.status == HTTPStatus.ACCEPTED:
+                return parsed(reply.body, lambda body: Job.of(body["job"]))
+            _check(part, reply.status)
         except (*REPEATED, ChecksumError) as failure:
             if part.size and (part.sha256, part.size) != before:
                 patience.renew()
@@ -73,6 +93,8 @@ def _arrival(link: str, part: PartFile, received: Received | None, patience: Pat
                 raise
             part.discard()  # as long as the file, or longer: it is none of it
             continue
+        else:
+            return None
         yield Pause(wait_s)
 
 
@@ -84,8 +106,15 @@ def _asked(part: PartFile) -> Headers:
     return headers
 
 
-def _check(part: PartFile) -> None:
-    """Refuse a file that is not what the service says; raises `ChecksumError`, and drops it."""
+def _check(part: PartFile, status: int) -> None:
+    """Refuse an answer without a file, and drop a file that is not what the service says.
+
+    Raises
+    ------
+    AnswerError, ChecksumError
+    """
+    if status not in CONTENT:
+        raise AnswerError(f"expected a file, got an answer {status} without one")
     if not part.intact:
         expected = part.sha256
         part.discard()
@@ -104,12 +133,10 @@ class _Arrival:
         sha256 = _sha256(headers)
         if status == HTTPStatus.PARTIAL_CONTENT:
             self._total = _continued(self._part, sha256, headers.get("Content-Range", ""))
-        elif status == HTTPStatus.OK:
+        else:
             self._part.begin(sha256)
             length = headers.get("Content-Length", "")
             self._total = int(length) if length.isdigit() else None
-        else:
-            raise AnswerError(f"expected a file, got an answer {status} without one")
 
     def feed(self, chunk: bytes) -> bool:
         """Take bytes."""

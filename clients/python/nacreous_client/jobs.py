@@ -1,6 +1,8 @@
 """Jobs: what becomes of a sweep, told by the service as it happens (server-sent events)."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from urllib.parse import quote
 
 from nacreous_client.answers import Job, parsed
 from nacreous_client.errors import JobFailedError, ServiceError, UnreachableError
@@ -8,7 +10,10 @@ from nacreous_client.exchange import REPEATED, accepted, asked
 from nacreous_client.retry import Patience, Retry
 from nacreous_client.steps import Headers, Pause, Request, Steps
 
-__all__ = ["Progress", "job_path", "succeeded", "waited"]
+__all__ = ["Progress", "found", "job_path", "succeeded", "waited"]
+
+_PAGE = 1000
+"""Tables of an answer."""
 
 Progress = Callable[[Job], None]
 """Is told how a job is, whenever that changes."""
@@ -16,7 +21,18 @@ Progress = Callable[[Job], None]
 
 def job_path(job: Job | str) -> str:
     """Return where a job is."""
-    return f"/v1/jobs/{job.id if isinstance(job, Job) else job}"
+    return f"/v1/jobs/{quote(job.id if isinstance(job, Job) else job, safe='')}"
+
+
+def found(job: Job | str, retry: Retry) -> Steps[Job]:
+    """Return a job with all of its tables, which the service gives by the page."""
+    now = yield from asked(f"{job_path(job)}?limit={_PAGE}", Job.of, retry)
+    page = now.tables
+    while len(page) == _PAGE:
+        link = f"{job_path(job)}?offset={len(now.tables)}&limit={_PAGE}"
+        page = (yield from asked(link, Job.of, retry)).tables
+        now = replace(now, tables=now.tables + page)
+    return now
 
 
 def waited(job: Job | str, progress: Progress | None, retry: Retry) -> Steps[Job]:
@@ -33,7 +49,7 @@ def waited(job: Job | str, progress: Progress | None, retry: Retry) -> Steps[Job
         except REPEATED as broken:
             failure = broken
         if events.last is not None and events.last.finished:
-            return (yield from asked(job_path(job), Job.of, retry))
+            return (yield from found(job, retry))
         if events.last is not None:
             patience.renew()
         yield Pause(patience.pause_s(failure))
@@ -76,5 +92,5 @@ def succeeded(job: Job) -> Job:
     """Return a job that has its tables; raises `JobFailedError` with the first reason otherwise."""
     if job.state == "done" and not job.failures:
         return job
-    reasons = [failure.message for failure in job.failures] or [f"job {job.id[:16]}… ended as {job.state}"]
-    raise JobFailedError(reasons[0])
+    reasons = [failure.message for failure in job.failures]
+    raise JobFailedError((reasons or [job.error or f"job {job.id[:16]}… ended as {job.state}"])[0])

@@ -10,10 +10,10 @@ from urllib.parse import quote, urlencode
 import httpx
 
 from nacreous_client.answers import Job, Material, Preset, Table, parsed
-from nacreous_client.download import Download, Received, download
+from nacreous_client.download import Download, Listeners, Received, download
 from nacreous_client.errors import AddressError
 from nacreous_client.exchange import asked, exchange, posted
-from nacreous_client.jobs import Progress, job_path, succeeded, waited
+from nacreous_client.jobs import Progress, found, job_path, succeeded, waited
 from nacreous_client.retry import Retry
 from nacreous_client.steps import Operation, Request, Steps
 
@@ -22,6 +22,8 @@ __all__ = ["Operations"]
 _TIMEOUT = httpx.Timeout(10.0, read=90.0)
 """Seconds without a byte. A table may take a minute before the first byte of its answer."""
 
+_PAGE = 1000
+"""Materials of an answer."""
 _TABLE_ID = re.compile(r"[0-9a-f]{64}")
 
 
@@ -86,7 +88,12 @@ class Operations:
 
     @Operation
     def download(
-        self, source: str, suffix: str, to: str | Path, received: Received | None = None
+        self,
+        source: str,
+        suffix: str,
+        to: str | Path,
+        received: Received | None = None,
+        progress: Progress | None = None,
     ) -> Steps[Download]:
         """Bring a file of a table or of a preset to a path.
 
@@ -100,6 +107,8 @@ class Operations:
             The file; what was there before stays until the new one is complete. Folders are made.
         received : callable, optional
             Called with the bytes that have come and, where the service says so, those of the whole.
+        progress : callable, optional
+            Called with the `Job` that a file of some time becomes, whenever it changes.
 
         Raises
         ------
@@ -110,12 +119,19 @@ class Operations:
         ServiceError, OSError
             Anything else; what has come is kept, hidden, and a later call goes on with it.
         """
-        return (yield from download(_file_path(source, suffix), Path(to), received, self.retry))
+        listeners = Listeners(received, progress)
+        return (yield from download(_file_path(source, suffix), Path(to), listeners, self.retry))
 
     @Operation
-    def fetch(self, link: str, to: str | Path, received: Received | None = None) -> Steps[Download]:
+    def fetch(
+        self,
+        link: str,
+        to: str | Path,
+        received: Received | None = None,
+        progress: Progress | None = None,
+    ) -> Steps[Download]:
         """Bring the file at one of the service's links to a path; the rest is as of `download`."""
-        return (yield from download(link, Path(to), received, self.retry))
+        return (yield from download(link, Path(to), Listeners(received, progress), self.retry))
 
     @Operation
     def presets(self) -> Steps[tuple[Preset, ...]]:
@@ -130,8 +146,13 @@ class Operations:
     @Operation
     def materials(self, search: str) -> Steps[tuple[Material, ...]]:
         """Return the materials whose name, description or citation holds every word."""
-        query = urlencode({"search": search})
-        return (yield from asked(f"/v1/materials?{query}", _materials, self.retry))
+        listed: list[Material] = []
+        while True:
+            query = urlencode({"search": search, "offset": len(listed), "limit": _PAGE})
+            page = yield from asked(f"/v1/materials?{query}", _materials, self.retry)
+            listed += page
+            if len(page) < _PAGE:
+                return tuple(listed)
 
     @Operation
     def material(self, name: str) -> Steps[Material]:
@@ -150,7 +171,7 @@ class Operations:
     @Operation
     def job(self, job: Job | str) -> Steps[Job]:
         """Return how a job is now; raises `MissingError`."""
-        return (yield from asked(job_path(job), Job.of, self.retry))
+        return (yield from found(job, self.retry))
 
     @Operation
     def wait(self, job: Job | str, progress: Progress | None = None) -> Steps[Job]:

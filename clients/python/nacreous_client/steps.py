@@ -8,15 +8,29 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Coroutine, Generator, Mapping
 from dataclasses import dataclass, field
 from functools import wraps
+from http import HTTPStatus
 from typing import Any, Concatenate, Generic, ParamSpec, Protocol, Self, TypeVar, overload
 
-__all__ = ["AwaitedRunner", "BlockingRunner", "Operation", "Pause", "Receiver", "Reply", "Request", "Steps"]
+__all__ = [
+    "CONTENT",
+    "AwaitedRunner",
+    "BlockingRunner",
+    "Operation",
+    "Pause",
+    "Receiver",
+    "Reply",
+    "Request",
+    "Steps",
+]
 
 P = ParamSpec("P")
 T = TypeVar("T")
 
 Headers = Mapping[str, str]
 """Names are found in any case."""
+
+CONTENT = (HTTPStatus.OK, HTTPStatus.PARTIAL_CONTENT)
+"""The answers that receivers are for; any other is a document of its own."""
 
 
 class Receiver(Protocol):
@@ -42,7 +56,7 @@ class Request:
     headers : mapping
     body : bytes
     receiver : Receiver, optional
-        Takes the body of an answer that is no error; without one it is in the `Reply`.
+        Takes the body of an answer 200 or 206; that of any other, or without one, is in the `Reply`.
     """
 
     method: str

@@ -168,6 +168,17 @@ def test_a_file_without_a_checksum_is_refused(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("status", [204, 304])
+def test_an_answer_without_a_file_is_refused(
+    server: AnsweringServer, call: Call, tmp_path: Path, status: int
+) -> None:
+    """No body was asked to be left out (RFC 9110, 15.3.5 and 15.4.5): what has come before is kept."""
+    server.script(EXR, file_answer(FILE, sent=1000), Answer(status))
+    with pytest.raises(AnswerError, match=f"got an answer {status}"):
+        call(server.address, "download", ID, ".exr", tmp_path / "film.exr")
+    assert [path.stat().st_size for path in tmp_path.iterdir()] == [1000]
+
+
 def test_two_at_once_do_not_write_into_one_another(server: AnsweringServer, tmp_path: Path) -> None:
     """Both are in the middle of the file at the same time: one of them writes a part of its own."""
     both = threading.Barrier(2)

@@ -10,7 +10,7 @@ from nacreous_client import (
     JobFailedError,
 )
 
-from answering_server import Answer, AnsweringServer, json_answer
+from answering_server import Answer, AnsweringServer, file_answer, json_answer
 
 Call = Callable[..., Any]
 
@@ -39,7 +39,7 @@ def test_a_job_is_waited_for_over_streams_that_are_cut(server: AnsweringServer, 
         Answer(200, {}, stream, len(stream) - 5),
         Answer(200, {}, _events(_job("running", 1), _job("done", 2), end=end)),
     )
-    server.script("GET /v1/jobs/j", json_answer(_job("done", 2, tables=[table])))
+    server.script("GET /v1/jobs/j?limit=1000", json_answer(_job("done", 2, tables=[table])))
     told: list[Job] = []
     submitted = call(server.address, "submit", {"base": "soap-bubble"})
     done = call(server.address, "wait", submitted, told.append)
@@ -52,11 +52,35 @@ def test_a_table_of_some_time_is_waited_for(server: AnsweringServer, call: Call)
     links = {"job": "/v1/jobs/j", "table": f"/v1/tables/{ID}"}
     server.script("POST /v1/tables", json_answer({"job": _job("queued", 0), "links": links}, 202))
     server.script("GET /v1/jobs/j/events", Answer(200, {}, _events(_job("done", 2))))
-    server.script("GET /v1/jobs/j", json_answer(_job("done", 2)))
+    server.script("GET /v1/jobs/j?limit=1000", json_answer(_job("done", 2)))
     server.script(f"GET /v1/tables/{ID}", json_answer({**TABLE, "spec": {"stack": {}}}))
     told: list[Job] = []
     table = call(server.address, "tabulate", {"stack": {}}, told.append)
     assert (table.id, table.spec, [job.state for job in told]) == (ID, {"stack": {}}, ["done"])
+
+
+def test_a_file_of_some_time_is_waited_for(server: AnsweringServer, call: Call, tmp_path: Path) -> None:
+    """A format that has not been asked for before may take a job; the file is at the same link after it."""
+    links = {"job": "/v1/jobs/j", "table": f"/v1/tables/{ID}"}
+    server.script(
+        f"GET /v1/tables/{ID}.bsdf",
+        json_answer({"job": _job("queued", 0), "links": links}, 202),
+        file_answer(b"measured"),
+    )
+    server.script("GET /v1/jobs/j/events", Answer(200, {}, _events(_job("done", 2))))
+    server.script("GET /v1/jobs/j?limit=1000", json_answer(_job("done", 2)))
+    told: list[Job] = []
+    call(server.address, "download", ID, ".bsdf", tmp_path / "film.bsdf", None, told.append)
+    assert (tmp_path / "film.bsdf").read_bytes() == b"measured"
+    assert [job.state for job in told] == ["done"]
+
+
+def test_a_job_of_many_tables_is_read_by_the_page(server: AnsweringServer, call: Call) -> None:
+    """All tables are in the job that is returned, in the order of the sweep."""
+    tables = [{"id": f"{at:064x}", "links": {}} for at in range(1001)]
+    server.script("GET /v1/jobs/j?limit=1000", json_answer(_job("done", 2, tables=tables[:1000])))
+    server.script("GET /v1/jobs/j?offset=1000&limit=1000", json_answer(_job("done", 2, tables=tables[1000:])))
+    assert [table.id for table in call(server.address, "job", "j").tables] == [each["id"] for each in tables]
 
 
 @pytest.mark.parametrize("state", ["failed", "cancelled", "done"])
@@ -66,7 +90,7 @@ def test_a_table_that_could_not_be_made_is_told(server: AnsweringServer, call: C
     links = {"job": "/v1/jobs/j", "table": f"/v1/tables/{ID}"}
     server.script("POST /v1/tables", json_answer({"job": _job("queued", 0), "links": links}, 202))
     server.script("GET /v1/jobs/j/events", Answer(200, {}, _events(_job(state, 0))))
-    server.script("GET /v1/jobs/j", json_answer(_job(state, 0, failures=failures)))
+    server.script("GET /v1/jobs/j?limit=1000", json_answer(_job(state, 0, failures=failures)))
     with pytest.raises(JobFailedError, match="expected a layer, got nothing"):
         call(server.address, "tabulate", {})
 
