@@ -27,6 +27,7 @@ from nacreous.errors import (
     StoreError,
     UnavailableError,
 )
+from nacreous.opencl.tiles import Observer
 from nacreous.store.store import Store
 
 __all__ = ["Failure", "Job", "JobLimits", "JobState", "Jobs"]

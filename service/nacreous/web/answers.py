@@ -3,7 +3,7 @@
 import hashlib
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, RootModel
 from starlette.responses import Response
 from starlette.types import Scope
 
@@ -130,10 +130,8 @@ class PresetEntry(_Answer):
     links: Links
 
 
-class PresetList(_Answer):
-    """All presets."""
-
-    presets: list[PresetEntry]
+class PresetList(RootModel[list[PresetEntry]]):
+    """All presets; a bare list, as the Blender add-on reads it."""
 
 
 class PresetAnswer(PresetEntry):

@@ -8,9 +8,10 @@ answered with the whole file, as RFC 9110, section 14.2, allows.
 import gzip
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from http import HTTPStatus
 
+from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from nacreous.web.problems import ProblemError
@@ -89,12 +90,14 @@ def header_of(scope: Scope, name: bytes) -> bytes:
 
 def compressed(representation: Representation, scope: Scope) -> Representation:
     """Return the gzip form of a representation where the client takes it and asks for no range."""
-    varies = Representation(**{**vars(representation), "varies": b"Accept-Encoding"})
+    varies = replace(representation, varies=b"Accept-Encoding")
     if not _takes_gzip(header_of(scope, b"accept-encoding")) or header_of(scope, b"range"):
         return varies
+    tag = f"{representation.tag}-gzip"
+    if _has_tag(header_of(scope, b"if-none-match"), tag):
+        return replace(varies, payload=b"", tag=tag)  # nothing of it will be sent
     payload = gzip.compress(representation.payload, _COMPRESSION_LEVEL, mtime=0)
-    changes = {"payload": payload, "tag": f"{representation.tag}-gzip", "encoding": "gzip"}
-    return Representation(**{**vars(varies), **changes})
+    return replace(varies, payload=payload, tag=tag, encoding="gzip")
 
 
 def _takes_gzip(accept_encoding: bytes) -> bool:
@@ -105,13 +108,14 @@ def _takes_gzip(accept_encoding: bytes) -> bool:
     return False
 
 
-@dataclass(frozen=True)
-class FileResponse:
-    """An ASGI application that answers one request with a representation, or says that it has not changed."""
+class FileResponse(Response):
+    """Answers a request with a representation, or a part of it, or says that it has not changed."""
 
-    representation: Representation
+    def __init__(self, representation: Representation) -> None:
+        self.representation = representation
+        self.background = None  # what a framework looks for; the rest of a response depends on the request
 
-    async def __call__(self, scope: Scope, _receive: Receive, send: Send) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:  # noqa: ARG002 - ASGI
         """Send the answer."""
         status, headers, body = self._answer(scope)
         await send({"type": "http.response.start", "status": status.value, "headers": headers})

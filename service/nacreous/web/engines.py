@@ -1,6 +1,7 @@
 """The engine of a service, from its settings."""
 
 from nacreous.engine.engine import Engine
+from nacreous.engine.worker_engine import WorkerEngine, WorkerSettings
 from nacreous.web.settings import Settings
 
 __all__ = ["GRACE_SECONDS", "worker_engine"]
@@ -11,8 +12,6 @@ GRACE_SECONDS = 3.0
 
 def worker_engine(settings: Settings) -> Engine:
     """Return an engine whose worker process is supervised."""
-    from nacreous.engine.worker_engine import WorkerEngine, WorkerSettings
-
     return WorkerEngine(
         WorkerSettings(
             deadline_s=settings.deadline_seconds, queue_length=settings.queue_length, grace_s=GRACE_SECONDS

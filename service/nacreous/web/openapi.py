@@ -149,7 +149,7 @@ def _with_bounds(part: Any) -> Any:  # noqa: ANN401 - any part of a schema
         return [_with_bounds(entry) for entry in part]
     if not isinstance(part, dict):
         return part
-    numeric = part.get("type") in {"number", "integer"}
+    numeric = part.get("type") in ("number", "integer")
     return {
         _SYNONYMS.get(name, name) if numeric else name: _with_bounds(value) for name, value in part.items()
     }

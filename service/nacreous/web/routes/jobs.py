@@ -13,6 +13,7 @@ from starlette.responses import Response, StreamingResponse
 
 from nacreous.engine.jobs import Job
 from nacreous.engine.sweep import Sweep
+from nacreous.tables.spec_document import Document
 from nacreous.web.answers import FailureAnswer, JobAnswer, JobProgress, TableLinks, document, json_response
 from nacreous.web.bodies import read_document
 from nacreous.web.files import format_of_suffix, split_file_name
@@ -21,6 +22,7 @@ from nacreous.web.links import job_links
 from nacreous.web.openapi import HEX_ID, READS_SWEEP, answered, problems, query_parameter
 from nacreous.web.queries import query, whole_number
 from nacreous.web.service import Service, service_of
+from nacreous.web.sizes import check_size
 
 __all__ = ["job_answer", "router"]
 
@@ -54,10 +56,18 @@ async def add_job(request: Request) -> Response:
     service = service_of(request)
     query(request)
     document_of_sweep = await read_document(request, service.settings)
-    sweep = await asyncio.to_thread(Sweep.from_document, document_of_sweep, service.settings.job_tables)
+    sweep = await asyncio.to_thread(_sweep, document_of_sweep, service.settings.job_tables)
     job = await service.jobs.add(sweep)
     headers = {"Location": job_links(job)["self"]}
     return Response(document(job_answer(job)), HTTPStatus.ACCEPTED, headers, "application/json")
+
+
+def _sweep(document_of_sweep: Document, limit: int) -> Sweep:
+    """Return the sweep of a document, whose first table is within the byte budget."""
+    sweep = Sweep.from_document(document_of_sweep, limit)
+    for work in sweep[0]:
+        check_size(work)
+    return sweep
 
 
 @router.get(

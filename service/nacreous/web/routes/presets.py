@@ -47,7 +47,7 @@ async def presets(request: Request) -> Response:
 
 @cache
 def _listed() -> bytes:
-    return document(PresetList(presets=[PresetEntry(**_entry(name)) for name in preset_names()]))
+    return document(PresetList([PresetEntry(**_entry(name)) for name in preset_names()]))
 
 
 @cache
