@@ -25,7 +25,7 @@ from nacreous.engine.messages import (
     work_of,
 )
 from nacreous.engine.work import Product, Work, compute
-from nacreous.errors import DeviceError, NacreousError, reason
+from nacreous.errors import BudgetError, DeviceError, NacreousError, reason
 from nacreous.formats.names import FormatName
 from nacreous.opencl.budget import byte_budget
 from nacreous.opencl.device import open_device
@@ -102,11 +102,17 @@ def _made_ready() -> Message:
     try:
         if fault := _self_test_fault():
             return Message("failed", {"cause": "kernels", "reason": fault})
-        compute(Work(Spec.model_validate(_WARM_UP), FormatName.EXR))
+        _warm_up()
     except NacreousError as error:
         return Message("failed", {"cause": "kernels", "reason": str(error)})
     _fit_budget()
     return Message("ready", {"device": open_device().info.name})
+
+
+def _warm_up() -> None:
+    """Compute a small lookup texture: what it compiles and imports, most works need."""
+    with suppress(BudgetError):  # of an operator who allows even less
+        compute(Work(Spec.model_validate(_WARM_UP), FormatName.EXR))
 
 
 def _self_test_fault() -> str:
