@@ -292,7 +292,7 @@ class Jobs:
         failed = active.job.failed == active.job.total
         error = active.job.failures[0].message if failed else ""
         state = JobState.FAILED if failed else JobState.DONE
-        changes = {"state": state, "fraction": 1.0, "error": error}
+        changes: dict[str, Any] = {"state": state, "fraction": 1.0, "error": error}
         await self._write(active.document, replace(active.job, **changes))
         self._end(active, **changes)
         await self._make_room()

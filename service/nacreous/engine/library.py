@@ -1,8 +1,8 @@
 """The library: every file is looked for in memory, then in the store, and only then computed, once.
 
-A table's record, its spec and certificate, lies beside its files. It is used whenever one of them is read
-from the store, so it is the last of the table to be evicted, and what is evicted before is computed again
-from it. Once the record is gone the table is unknown, until somebody sends its spec again.
+A table's record, its spec and certificate, lies beside its files. It is written last, and used whenever one
+of them is read from the store, so that it is as a rule the last of the table to be evicted: what goes before
+is computed again from it. Once the record is gone the table is unknown, until somebody sends its spec again.
 """
 
 import asyncio
@@ -151,17 +151,16 @@ class Library:
         MissingError
             There is no such table, no format of this suffix, or the table has no such companion.
         StoreError
-            The table's record cannot be read.
+            The table's record cannot be read, where it is needed.
         SpecError
             The format cannot hold the table; and all that `file` raises.
         """
         check_table_id(table_id)
         target = format_of_suffix(suffix)
-        entry = self.hot(table_id, suffix)
-        if entry is not None:
-            return entry
-        record = await self.record(table_id)
-        return await self.file(await _recalled(record, target.name), suffix)
+        key = table_key(table_id, suffix)
+        return self.hot(table_id, suffix) or await self._reads.share(
+            key, lambda _: self._recalled(table_id, target.name, suffix)
+        )
 
     async def add(self, spec: Spec) -> Added:
         """Compute a spec in its default format, keep its record, and say what came of it.
@@ -170,7 +169,7 @@ class Library:
         """
         work = Work(spec, default_format(spec))
         await _identify(work)
-        known = await self._stored(table_key(work.id, RECORD_SUFFIX), work.id)
+        known = await asyncio.to_thread(self._read, table_key(work.id, RECORD_SUFFIX), work.id)
         certificate = (await self.file(work)).facts["certificate"]
         return Added(work.id, certificate, created=known is None)
 
@@ -190,11 +189,15 @@ class Library:
         Raises what `file` raises, and `StoreError` where the files cannot be kept.
         """
         await _identify(work)
-        if await asyncio.to_thread(self._store.has, file_key(work)):
+        if await asyncio.to_thread(self._is_kept, work):
             return
         outcome = await self._works.share(file_key(work), partial(self._computed, work), observer)
         if outcome.fault is not None:
             raise outcome.fault
+
+    def _is_kept(self, work: Work) -> bool:
+        """Tell whether the last of what is stored of a work is there: its record, and its own file."""
+        return all(map(self._store.has, (table_key(work.id, RECORD_SUFFIX), file_key(work))))
 
     async def settle(self) -> None:
         """Wait until what is being computed has been answered and stored; stop the engine before."""
@@ -202,11 +205,24 @@ class Library:
         await self._works.settle()
 
     async def _found(self, work: Work, suffix: str) -> Entry:
-        entry = await self._stored(file_key(work, suffix), work.id)
+        key = file_key(work, suffix)
+        entry = await asyncio.to_thread(self._read, key, work.id, work)
+        return self._hit(key, entry) if entry else await self._made(work, suffix)
+
+    async def _recalled(self, table_id: str, chosen: FormatName, suffix: str) -> Entry:
+        key = table_key(table_id, suffix)
+        entry = await asyncio.to_thread(self._read, key, table_id)
         if entry is not None:
-            self.hits_store += 1
-            self._hot.put(file_key(work, suffix), entry)
-            return entry
+            return self._hit(key, entry)
+        work = await _work_of(await self.record(table_id), chosen)
+        return await self._made(work, suffix)
+
+    def _hit(self, key: str, entry: Entry) -> Entry:
+        self.hits_store += 1
+        self._hot.put(key, entry)
+        return entry
+
+    async def _made(self, work: Work, suffix: str) -> Entry:
         await self._check_companion(work, suffix)
         self.misses += 1
         outcome = await self._works.share(file_key(work), partial(self._computed, work))
@@ -218,7 +234,8 @@ class Library:
         """Refuse a companion that the table's own file says there is none of, before computing it again."""
         if suffix == work.target.suffix:
             return
-        own = self._hot.get(file_key(work)) or await self._stored(file_key(work), work.id)
+        key = file_key(work)
+        own = self._hot.get(key) or await asyncio.to_thread(self._read, key, work.id)
         if own is not None and suffix not in own.facts["files"]:
             raise _no_companion(work, suffix)
 
@@ -240,25 +257,27 @@ class Library:
         for entry in entries.values():
             entry.sha256  # noqa: B018 - computed here once, and not in the event loop
         try:
+            for suffix, entry in entries.items():
+                self._store.put(file_key(work, suffix), entry)
             key, record = _record_of(work, entries)
             if _speaks(work) or not self._store.has(key):
                 self._store.put(key, record)
-            for suffix, entry in entries.items():
-                self._store.put(file_key(work, suffix), entry)
         except StoreError as error:
             return error
         return None
 
-    async def _stored(self, key: str, table_id: str) -> Entry | None:
-        return await asyncio.to_thread(self._read, key, table_id)
+    def _read(self, key: str, table_id: str, work: Work | None = None) -> Entry | None:
+        """Read an entry, in a thread, and use its table's record; write that of `work` where it is gone.
 
-    def _read(self, key: str, table_id: str) -> Entry | None:
-        """Read an entry, and use its table's record; a store that fails is one that has nothing."""
+        A store that fails is one that has nothing.
+        """
+        record_key = table_key(table_id, RECORD_SUFFIX)
         try:
             entry = self._store.get(key)
             if entry is not None:
                 entry.sha256  # noqa: B018 - computed here once, and not in the event loop
-                self._store.get(table_key(table_id, RECORD_SUFFIX))
+                if self._store.get(record_key) is None and work is not None:
+                    self._store.put(record_key, record_entry(work.spec, table_id, entry.facts["certificate"]))
         except StoreError as error:
             _log.warning("%s could not be read: %s", key, error)
             return None
@@ -271,7 +290,7 @@ async def _identify(work: Work) -> None:
         await asyncio.to_thread(getattr, work, "id")
 
 
-async def _recalled(record: Record, chosen: FormatName) -> Work:
+async def _work_of(record: Record, chosen: FormatName) -> Work:
     """Return the work of a record; one of an earlier version would be of another table."""
     work = Work(record.spec, chosen)
     await _identify(work)

@@ -187,11 +187,11 @@ class Sweep(StrictModel):
     def _in_sweep(self, error: SpecError, path: str) -> SpecError:
         """Return the error of a table as one of the sweep: that the value at `path` is wrong, if it is."""
         field = error.field
-        if field == "base" or not (field or path):
+        if field == "base":
             return error
         if field == "format":
             return SpecError("formats", error.expected, error.got, error.remedy)
-        if any(_leads_to(varied, field) or _leads_to(field, varied) for varied in self._axes):
+        if not field or any(_leads_to(varied, field) or _leads_to(field, varied) for varied in self._axes):
             return error.under("vary")
         if not path:
             return error.under("base")

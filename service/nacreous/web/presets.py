@@ -1,8 +1,10 @@
 """Presets as the service hands them out: as they are, at one thickness, or over an axis of a link's own."""
 
 import math
-from functools import lru_cache
+from functools import cache, lru_cache
+from typing import NamedTuple
 
+from nacreous.engine.cost import estimated_seconds
 from nacreous.engine.work import Work
 from nacreous.errors import MissingError, SpecError
 from nacreous.formats.names import FormatName
@@ -10,8 +12,9 @@ from nacreous.optics.value import did_you_mean, shown
 from nacreous.tables.presets import preset, preset_names
 from nacreous.tables.spec import Spec
 from nacreous.tables.spec_document import Document
+from nacreous.web.sizes import check_size
 
-__all__ = ["check_preset", "preset_work"]
+__all__ = ["PresetWork", "check_preset", "preset_work"]
 
 _PARAMETER = "thickness_scale"
 _LEAST, _LARGEST = 1e-6, 100.0
@@ -20,15 +23,27 @@ _LONGEST = 2000
 """Characters of the parameter."""
 
 
+@cache
+def _names() -> tuple[str, ...]:
+    return preset_names()  # which looks into a folder
+
+
 def check_preset(name: str) -> None:
     """Raise `MissingError`, with the closest names, where there is no preset of this one."""
-    if name not in preset_names():
-        remedy = did_you_mean(name, preset_names(), otherwise="/v1/presets lists them")
+    if name not in _names():
+        remedy = did_you_mean(name, _names(), otherwise="/v1/presets lists them")
         raise MissingError(f"expected the name of a preset, got {shown(name)}; {remedy}")
 
 
+class PresetWork(NamedTuple):
+    """The work that makes a preset's file, and an estimate of what it takes."""
+
+    work: Work
+    seconds: float
+
+
 @lru_cache(maxsize=512)
-def preset_work(name: str, format_name: FormatName, thickness_scale: str = "") -> Work:
+def preset_work(name: str, format_name: FormatName, thickness_scale: str = "") -> PresetWork:
     """Return the work that makes a preset's file.
 
     Parameters
@@ -45,9 +60,13 @@ def preset_work(name: str, format_name: FormatName, thickness_scale: str = "") -
         There is no such preset.
     SpecError
         The factor or the axis is none, or the format cannot hold the table.
+    BudgetError
+        The axis makes it too large.
     """
     check_preset(name)
-    return Work(_scaled(name, thickness_scale), format_name, name.replace("/", "-"))
+    work = Work(_scaled(name, thickness_scale), format_name, name.replace("/", "-"))
+    check_size(work)
+    return PresetWork(work, estimated_seconds(work))
 
 
 def _scaled(name: str, thickness_scale: str) -> Spec:

@@ -8,7 +8,6 @@ from fastapi import APIRouter, Path
 from starlette.requests import Request
 from starlette.responses import Response
 
-from nacreous.engine.cost import estimated_seconds
 from nacreous.formats.registry import FORMATS
 from nacreous.tables.identity import table_id
 from nacreous.tables.presets import preset, preset_names
@@ -88,8 +87,8 @@ async def preset_file(
     stem, ending = split_file_name(f"{name}.{suffix}")
     check_preset(stem)
     chosen = format_of_suffix(ending)
-    work = preset_work(stem, chosen.name, scale)
-    if estimated_seconds(work) > service.settings.deadline_seconds:
+    work, seconds = preset_work(stem, chosen.name, scale)
+    if seconds > service.settings.deadline_seconds:
         return await job_of(service, work)
     entry = await service.library.file(work, "" if ending == chosen.suffix else ending)
     return await file_response(representation(entry, work.name, ending, REVALIDATE), chosen, request.scope)

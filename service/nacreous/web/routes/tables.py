@@ -106,6 +106,7 @@ async def table_file(
     chosen = format_of_suffix(ending)
     if service.library.hot(known, ending) is None:
         work = Work((await service.library.record(known)).spec, chosen.name)
+        check_size(work)
         if estimated_seconds(work) > service.settings.deadline_seconds:
             return await job_of(service, work)
     entry = await service.library.table_file(known, ending)
