@@ -53,7 +53,7 @@ class Quota:
         last change, and somebody may have copied files into the folder.
         """
         with held(self._root) as account:
-            if not self._has_counted:
+            if not self._has_counted or not account.is_kept:
                 self._recount(account)
                 self._has_counted = True
             yield account
@@ -88,9 +88,9 @@ class Quota:
         return [file for file in found if not file.is_hidden and counted_bytes(file.folders, 1)]
 
     def _stays(self, file: Found) -> bool:
-        """Return whether a file is there to stay; what a killed writer has left is removed."""
+        """Return whether a file is an entry or becomes one; what a killed writer has left is removed."""
         if not is_incoming(file.name):
-            return True
+            return not file.is_hidden
         with opened_folder(self._root, file.folders) as folder:
             return not remove_abandoned(file.name, folder)
 
