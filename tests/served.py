@@ -19,7 +19,7 @@ __all__ = ["Served", "serving"]
 
 PROGRAM = (sys.executable, "-c", "from nacreous.cli.app import main; main()")
 READY_SECONDS = 120.0
-_LISTENING = "Uvicorn running on "
+_LISTENING = '"event": "listening"'
 
 
 @dataclass
@@ -55,7 +55,7 @@ class Served:
             for line in self.process.stderr or ():
                 self.lines.append(line)
                 if _LISTENING in line:
-                    self.url = json.loads(line)["event"].removeprefix(_LISTENING).split(" ")[0]
+                    self.url = json.loads(line)["url"]
                     listening.set()
             listening.set()
 

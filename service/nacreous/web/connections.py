@@ -35,7 +35,7 @@ class Connection(HttpToolsProtocol):
         super().__init__(config, server_state, app_state, _loop)
         self._waiting: asyncio.TimerHandle | None = None
         self._header_bytes = 0
-        self._in_header = True
+        self._in_header, self._part_ended = True, False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Begin to wait for a header, or close what comes on top of too many."""
@@ -57,9 +57,10 @@ class Connection(HttpToolsProtocol):
             return
         if self._in_header and self._waiting is None:
             self._await_header()  # of the next request on the same connection
+        self._part_ended = False
         super().data_received(data)
-        if not self._in_header:
-            return
+        if self._part_ended or not self._in_header:
+            return  # how much of it is of a header nobody says; the next will be counted
         self._header_bytes += len(data)
         if self._header_bytes > self.max_header:
             detail = f"expected a header of at most {self.max_header:,} bytes"
@@ -67,13 +68,13 @@ class Connection(HttpToolsProtocol):
 
     def on_headers_complete(self) -> None:
         """Stop the clock; the request begins."""
-        self._in_header = False
+        self._in_header, self._part_ended = False, True
         self._header_came()
         super().on_headers_complete()
 
     def on_message_complete(self) -> None:
         """Expect the header of the next request."""
-        self._in_header, self._header_bytes = True, 0
+        self._in_header, self._part_ended, self._header_bytes = True, True, 0
         super().on_message_complete()
 
     def on_response_complete(self) -> None:

@@ -38,7 +38,9 @@ class Limits:
         size += sum(len(name) + len(value) + 4 for name, value in scope["headers"])
         if size > settings.max_header:
             detail = f"expected a header of at most {settings.max_header:,} bytes, got {size:,}"
-            raise ProblemError(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, "header", detail)
+            raise ProblemError(
+                HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, "header", detail, headers={"Connection": "close"}
+            )
 
 
 def _unavailable(kind: str, detail: str, headers: Mapping[str, str] = MappingProxyType({})) -> ProblemError:

@@ -8,6 +8,7 @@ exit code 0. A second signal waits no longer.
 import asyncio
 import logging
 import signal
+import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -24,6 +25,8 @@ __all__ = ["GracefulServer", "serve", "server_of"]
 
 _SIGNALS = (signal.SIGTERM, signal.SIGINT)
 _KEEP_ALIVE_SECONDS = 30
+_BACKLOG = 2048
+"""Connections that the system holds until they are accepted."""
 _CLOSING_SECONDS = 1.0
 """What connections have left once their requests have been answered."""
 
@@ -61,13 +64,13 @@ class GracefulServer(Server):
         self._service.stopping.set()
         self.should_exit = True
 
-    async def shutdown(self, sockets: list[object] | None = None) -> None:  # type: ignore[override]
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Wait for the requests that run, with the port open, and close it then."""
         _logger.info("stopping")
         await self._service.requests_done(
             self._service.settings.shutdown_seconds - GRACE_SECONDS - _CLOSING_SECONDS
         )
-        await super().shutdown(sockets)  # type: ignore[arg-type]
+        await super().shutdown(sockets)
 
 
 def server_of(settings: Settings) -> GracefulServer:
@@ -75,8 +78,6 @@ def server_of(settings: Settings) -> GracefulServer:
     app = create_app(settings)
     config = Config(
         app,
-        host=settings.host,
-        port=settings.port,
         loop="uvloop",
         http=connection_type(settings.header_seconds, settings.max_header, settings.connections),
         ws="none",
@@ -92,6 +93,11 @@ def server_of(settings: Settings) -> GracefulServer:
 
 
 def serve(settings: Settings) -> None:
-    """Run the service until it is told to stop."""
+    """Run the service until it is told to stop; raises `OSError` where it cannot listen."""
     configure(settings.log_level)
-    server_of(settings).run()
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
+    with socket.create_server((settings.host, settings.port), family=family, backlog=_BACKLOG) as listening:
+        host, port = listening.getsockname()[:2]
+        url = f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+        _logger.info("listening", extra={"facts": {"url": url}})
+        server_of(settings).run([listening])
