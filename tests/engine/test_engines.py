@@ -144,6 +144,7 @@ def test_a_stop_finishes_what_is_in_hand_and_refuses_what_waits(make: Callable[[
 
 def test_a_deadline_in_this_process_is_kept_between_tiles() -> None:
     """What takes too long is ended between two tiles, and the next work is done."""
+
     async def asked() -> None:
         engine = InProcessEngine(deadline_s=0.0)
         await engine.start()

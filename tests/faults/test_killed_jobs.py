@@ -4,21 +4,21 @@ Promise: after resume the set is byte-identical, and at most one table is made a
 """
 
 import random
+import signal
 import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
 from threading import Timer
 
-from soak import scale
-
+from faults.soak import scale
 from nacreous.engine.job import JOBS
 from nacreous.store.store import open_store
 from small_library import small_sweep
 
 PROGRAM = Path(__file__).parents[1] / "job_process.py"
-TABLES = scale(40, 2_000)
-KILLS = scale(4, 100)
+TABLES = scale(20, 2_000)
+KILLS = scale(3, 100)
 
 
 def _started(folder: Path) -> "subprocess.Popen[str]":
@@ -26,16 +26,22 @@ def _started(folder: Path) -> "subprocess.Popen[str]":
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
 
 
-def _killed_after(process: "subprocess.Popen[str]", lines: int, seconds: float) -> list[str]:
-    """Kill a process some time after it has written so many lines; return all that it wrote."""
-    assert process.stdout is not None
-    told = []
-    for line in process.stdout:
-        told.append(line.strip())
-        if len(told) == lines:
-            Timer(seconds, process.kill).start()
-    process.wait()
-    return told
+def _written(folder: Path) -> list[str]:
+    """Let a process come to its end, and return the lines that it has written."""
+    with _started(folder) as process:
+        return process.communicate()[0].splitlines()
+
+
+def _written_until_killed(folder: Path, lines: int, seconds: float) -> tuple[list[str], bool]:
+    """Kill a process some time after it has written so many lines; return them, and whether it was killed."""
+    with _started(folder) as process:
+        assert process.stdout is not None
+        told = []
+        for line in process.stdout:
+            told.append(line.strip())
+            if len(told) == lines:
+                Timer(seconds, process.kill).start()
+    return told, process.returncode == -signal.SIGKILL
 
 
 def _files(folder: Path) -> dict[str, bytes]:
@@ -47,19 +53,17 @@ def _files(folder: Path) -> dict[str, bytes]:
 
 def test_a_killed_job_is_ended_by_the_next_process(tmp_path: Path) -> None:
     """Killed at random points again and again: the same files, one table redone a kill, nothing left over."""
-    chance = random.Random(7)
+    chance = random.Random(7)  # noqa: S311 - when to kill
     told: list[str] = []
     kills = 0
     for _ in range(KILLS):
-        process = _started(tmp_path / "killed")
-        told += _killed_after(process, chance.randint(1, max(1, TABLES // KILLS)), chance.uniform(0, 0.2))
-        kills += process.returncode == -9
+        lines, seconds = chance.randint(1, TABLES // KILLS), chance.uniform(0, 0.1)
+        written, killed = _written_until_killed(tmp_path / "killed", lines, seconds)
+        told, kills = told + written, kills + killed
     assert kills > KILLS // 2
-    last = _started(tmp_path / "killed")
-    *rest, end = last.communicate()[0].splitlines()
+    *rest, end = _written(tmp_path / "killed")
     assert end == f"done {TABLES} 0"
-    whole = _started(tmp_path / "whole")
-    assert whole.communicate()[0].splitlines()[-1] == end
+    assert _written(tmp_path / "whole")[-1] == end
 
     assert _files(tmp_path / "killed") == _files(tmp_path / "whole")
     made = Counter(line for line in told + rest if not line.startswith("done"))

@@ -41,19 +41,18 @@ def let_time_pass(folder: Path) -> None:
             os.utime(path, ns=(used_ns, used_ns))
 
 
-USES = st.lists(
-    st.tuples(st.sampled_from(["put", "get"]), st.integers(0, 11), st.integers(0, 2000)), max_size=30
-)
+LARGEST = 2000
+USE = st.tuples(st.sampled_from(["put", "get"]), st.integers(0, 7), st.integers(LARGEST // 4, LARGEST))
 
 
 @settings(deadline=None, max_examples=60)
-@given(uses=USES)
+@given(uses=st.lists(USE, min_size=8, max_size=30))
 def test_keeps_what_was_used_last(
     tmp_path_factory: pytest.TempPathFactory, uses: list[tuple[str, int, int]]
 ) -> None:
     """The entries left are the last in the order of use, within the quota, and none went without need."""
     folder, quota, order, sizes = tmp_path_factory.mktemp("store"), 8 * KIBIBYTE, [], {}
-    store = open_store(str(folder), quota)
+    store, needed = open_store(str(folder), quota), quota - quota // 16 - stored_size(LARGEST)
     for use, number, size in uses:
         key = f"tables/{number}"
         if use == "put":
@@ -65,11 +64,20 @@ def test_keeps_what_was_used_last(
         assert kept == order[len(order) - len(kept) :]
         assert on_disk(folder) == store.size_bytes() == sum(sizes[key] for key in kept) <= quota
         if len(kept) < len(order):
-            assert sum(sizes[key] for key in order[-len(kept) - 1 :]) > quota - quota // 16 - stored_size(
-                2000
-            )
+            assert sum(sizes[key] for key in order[-len(kept) - 1 :]) > needed
         order = kept
         let_time_pass(folder)
+
+
+def test_reading_an_entry_keeps_it(tmp_path: Path) -> None:
+    """The one that has been read outlives those that were put after it."""
+    store = open_store(str(tmp_path), 3 * stored_size(100))
+    for number in range(3):
+        store.put(f"tables/{number}", entry(100))
+        let_time_pass(tmp_path)
+    assert store.get("tables/0") == entry(100)
+    store.put("tables/3", entry(100))
+    assert sorted(store.keys()) in (["tables/0", "tables/3"], ["tables/0", "tables/2", "tables/3"])
 
 
 def test_no_entry_goes_while_there_is_room(tmp_path: Path) -> None:
@@ -124,6 +132,21 @@ def test_quarantine_counts_and_goes_first(tmp_path: Path) -> None:
     assert store.size_bytes() == on_disk(tmp_path) == 3 * stored_size(1000)
     store.put("tables/new", entry(1000))
     assert sorted(store.keys()) == ["tables/new", "tables/old"]
+
+
+def test_files_of_other_people_stay(tmp_path: Path) -> None:
+    """Naming a folder in use as the store's, by mistake, loses nothing that is no entry."""
+    (tmp_path / "tables").mkdir()
+    theirs = {tmp_path / "thesis.txt": b"x" * 3000, tmp_path / "tables" / "data.csv": b"1," * 10}
+    for path, content in theirs.items():
+        path.write_bytes(content)
+    store = open_store(str(tmp_path), 4 * KIBIBYTE)
+    for number in range(10):
+        store.put(f"tables/{number}", entry(500))
+    with pytest.raises(StoreError, match="files that cannot be evicted leave no room"):
+        store.put("tables/large", entry(2000))
+    assert {path: path.read_bytes() for path in theirs} == theirs
+    assert on_disk(tmp_path) <= 4 * KIBIBYTE
 
 
 def test_counts_what_others_have_copied_in(tmp_path: Path) -> None:

@@ -232,6 +232,12 @@ def test_refuses_a_url_that_nobody_knows() -> None:
         open_store("films://ab")
 
 
+def test_refuses_no_place_at_all() -> None:
+    """A variable of the environment that is empty must not mean the current folder."""
+    with pytest.raises(StoreError, match="got an empty name"):
+        open_store("")
+
+
 @pytest.mark.parametrize("prefix", ["", "file://", "local://"])
 def test_takes_a_folder_by_path_or_url(prefix: str, tmp_path: Path) -> None:
     """All name the same folder, and have a quota."""

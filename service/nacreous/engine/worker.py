@@ -145,20 +145,27 @@ def _answer(message: Message, compute: Compute, replies: BinaryIO) -> Message:
 def _failure(error: Exception) -> Message:
     """Return what tells of a refusal, or of a fault after which this process is not to be trusted."""
     if isinstance(error.__cause__, OSError):
-        return fault_message(DeviceError(f"the worker cannot write: {reason(error.__cause__)}"))
-    if isinstance(error, NacreousError):
-        return fault_message(error) if isinstance(error, DeviceError) else error_message(error)
-    _log.error("unforeseen", exc_info=error)
+        return fault_message(DeviceError(f"the worker cannot write: {reason(error.__cause__)}"), 0)
+    if isinstance(error, NacreousError) and not isinstance(error, DeviceError):
+        return error_message(error)
+    _log.error("fault", exc_info=error)
+    return fault_message(_as_told(error), getattr(error.__cause__ or error, "code", 0))
+
+
+def _as_told(error: Exception) -> Exception:
+    """Return what the caller is told of a fault."""
+    if isinstance(error, DeviceError):
+        return error
     if isinstance(error, MemoryError):
-        return fault_message(DeviceError("the worker's memory does not suffice for this table"))
+        return DeviceError("the worker's memory does not suffice for this table")
     if type(error).__module__.startswith(_OPENCL):
-        return fault_message(DeviceError(f"the device failed: {error}"))
-    return fault_message(RuntimeError(f"{type(error).__name__}: {error}"))
+        return DeviceError(f"the device failed: {error}")
+    return RuntimeError(f"{type(error).__name__}: {error}")
 
 
 def _progress_to(replies: BinaryIO) -> Observer:
     """Return an observer that tells the supervisor, at most every 50 ms."""
-    told = time.monotonic()
+    told = float("-inf")
 
     def tell(fraction: float) -> None:
         nonlocal told

@@ -78,8 +78,8 @@ class Store:
         Raises
         ------
         StoreError
-            The disk is full, the entry is larger than the quota, the place cannot be reached or written; what
-            was there is as it was.
+            The disk is full, the entry is larger than the quota, or the place cannot be reached or written;
+            no part of the entry is there.
         """
         check_key(key)
         self._objects.write(key, entry.to_bytes(key))
@@ -132,6 +132,8 @@ def open_store(url: str, quota_bytes: int | None = None) -> Store:
     ...     store.get("tables/ab/ab12.exr").payload
     b'a texture'
     """
+    if not url:
+        raise StoreError("expected a folder or a URL for the store, got an empty name")
     protocol, path = split_protocol(url)
     if protocol in _LOCAL:
         return Store(FolderObjects(Path(path).expanduser(), quota_bytes))
