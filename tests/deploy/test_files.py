@@ -1,4 +1,4 @@
-"""What runs the service elsewhere: an image, a compose file, a systemd unit, each by a checker of its kind."""
+"""What runs the service elsewhere: an image, a compose file, a systemd unit, each by its own checker."""
 
 import json
 import os
