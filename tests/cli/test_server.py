@@ -44,12 +44,13 @@ phi = 3
 wavelength_nm = { start = 380, stop = 780, step = 20 }
 """
 KEY = "a-key-of-twenty-four-characters"
-SPECS = {"fresnel": FILM, "bsdf": ROUGH}
-FORMATS_OF = {
-    "fresnel": [name for name in FORMATS if "fresnel" in FORMATS[name].quantities],
-    "bsdf": [FormatName.RGL_RGB, FormatName.EXR, FormatName.MBSDF],
+SMOOTH = [name for name in FORMATS if "fresnel" in FORMATS[name].quantities]
+CASES = {
+    "smooth": (FILM, [name for name in SMOOTH if name is not FormatName.SPECTRAL_EXR]),
+    "spectra": (FILM, [FormatName.SPECTRAL_EXR]),
+    "rough": (ROUGH, [FormatName.RGL_RGB, FormatName.EXR, FormatName.MBSDF]),
 }
-"""All of a smooth film, and of a rough one some that are sampled where their readers want it."""
+"""Every format of a smooth film, and of a rough one some that are sampled where their readers want it."""
 
 
 @pytest.fixture(scope="module")
@@ -81,11 +82,12 @@ def records(done: subprocess.CompletedProcess[str]) -> list[dict[str, object]]:
     return [{**line, "seconds": 0, "path": Path(line["path"]).name} for line in lines]
 
 
-@pytest.mark.parametrize("quantity", SPECS)
-def test_files_are_the_local_ones_byte_for_byte(run: Run, ask: Run, tmp_path: Path, quantity: str) -> None:
+@pytest.mark.parametrize("case", CASES)
+def test_files_are_the_local_ones_byte_for_byte(run: Run, ask: Run, tmp_path: Path, case: str) -> None:
     """Names, order, records and bytes, of a file whose name and label XML has to escape."""
-    (tmp_path / "my film & co.toml").write_text(SPECS[quantity])
-    options = [option for name in FORMATS_OF[quantity] for option in ("--format", name)]
+    text, formats = CASES[case]
+    (tmp_path / "my film & co.toml").write_text(text)
+    options = [option for name in formats for option in ("--format", name)]
     local = run("tabulate", "my film & co.toml", *options, "-o", "local", "--json")
     remote = ask("tabulate", "my film & co.toml", *options, "-o", "remote", "--json")
     assert (local.returncode, remote.returncode, remote.stderr) == (0, 0, local.stderr)
