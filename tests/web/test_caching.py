@@ -15,9 +15,7 @@ def url(table: Mapping[str, Any]) -> str:
     return str(table["links"]["exr"])
 
 
-@pytest.mark.parametrize(
-    "tags", ["{tag}", "W/{tag}", '"other", {tag}', "*", '  {tag}  ,"x"', '"", W/{tag}']
-)
+@pytest.mark.parametrize("tags", ["{tag}", "W/{tag}", '"other", {tag}', "*", '  {tag}  ,"x"', '"", W/{tag}'])
 @pytest.mark.parametrize("kind", ["exr", "csv", "self"])
 def test_a_known_file_is_not_sent_again(
     app: RunningApp, table: Mapping[str, Any], kind: str, tags: str

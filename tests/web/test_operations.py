@@ -50,7 +50,9 @@ def test_an_unwritable_store_is_not_ready(tmp_path: Path, film: Mapping[str, Any
         assert running.post("/v1/tables", json=film).status_code == 201
 
 
-def test_requests_are_counted_by_the_template_of_their_route(app: RunningApp, table: Mapping[str, Any]) -> None:
+def test_requests_are_counted_by_the_template_of_their_route(
+    app: RunningApp, table: Mapping[str, Any]
+) -> None:
     """One label for all tables, one for all that is not there: labels do not grow with what is asked."""
     labels = {"method": "GET", "route": "/v1/tables/{table_id}.{suffix}", "status": "200"}
     before = figure(app, "nacreous_requests_total", **labels)
@@ -61,7 +63,9 @@ def test_requests_are_counted_by_the_template_of_their_route(app: RunningApp, ta
         app.get(f"/nothing/{n}")
         app.request(f"BREW{n}", "/v1/presets")
     routes = {dict(labels).get("route") for name, labels in figures(app) if name.startswith("nacreous_requ")}
-    methods = {dict(labels).get("method") for name, labels in figures(app) if name == "nacreous_requests_total"}
+    methods = {
+        dict(labels).get("method") for name, labels in figures(app) if name == "nacreous_requests_total"
+    }
     assert len(routes) < 16
     assert not any(route and "nothing" in route for route in routes)
     assert methods <= {"GET", "HEAD", "POST", "DELETE", "PUT", "PATCH", "OPTIONS", "TRACE", "other"}

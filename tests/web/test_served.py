@@ -105,14 +105,17 @@ def test_a_trickling_body_that_nobody_reads_is_given_up(served: Served) -> None:
 @pytest.mark.parametrize("complete", [True, False])
 def test_64_kb_of_header_are_refused(served: Served, complete: bool) -> None:  # noqa: FBT001 - parametrised
     """431, whether the header ends or not, and before it is kept."""
-    header = b"GET /healthz HTTP/1.1\r\nHost: n\r\nX-Long: " + b"x" * 65536 + (b"\r\n\r\n" if complete else b"")
+    header = (
+        b"GET /healthz HTTP/1.1\r\nHost: n\r\nX-Long: " + b"x" * 65536 + (b"\r\n\r\n" if complete else b"")
+    )
     answer = exchange(served, header.replace(b"healthz", b"v1/presets"))
     assert answer.startswith(b"HTTP/1.1 431 ")
     assert b"application/problem+json" in answer
 
 
 @pytest.mark.parametrize(
-    "sent", [b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"\x00" * 100]
+    "sent",
+    [b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"\x00" * 100],
 )
 def test_what_is_no_http_is_refused(served: Served, sent: bytes) -> None:
     """400 as a problem, and an end."""

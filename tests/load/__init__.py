@@ -1,0 +1,1 @@
+"""How fast the service answers, beside plain programs in the same server: `python -m load`, tests on the path."""
