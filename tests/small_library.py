@@ -34,10 +34,13 @@ class Rooms:
 
 @asynccontextmanager
 async def opened(
-    folder: Path, quota_bytes: int | None = None, limits: JobLimits | None = None, queue_length: int = 64
+    folder: Path,
+    quota_bytes: int | None = None,
+    limits: JobLimits | None = None,
+    engine: InProcessEngine | None = None,
 ) -> AsyncIterator[Rooms]:
     """Open a library on a folder, with an engine of this process; close it as a server does."""
-    store, engine = open_store(str(folder), quota_bytes), InProcessEngine(queue_length=queue_length)
+    store, engine = open_store(str(folder), quota_bytes), engine or InProcessEngine()
     library = Library(store, engine)
     jobs = Jobs(library, store, limits)
     await engine.start()

@@ -59,9 +59,9 @@ class ActiveJob:
             work.id  # noqa: B018 - kept in the work
         return works
 
-    def observer(self, first: float, share: float) -> Observer:
-        """Return what notes the progress of a file that begins at `first` and is `share` of the job."""
-        return lambda fraction: self.become(fraction=first + share * fraction)
+    def observer(self, place: int, files: int) -> Observer:
+        """Return what notes the progress of the file at a place of all the job's files."""
+        return lambda fraction: self.become(fraction=(place + fraction) / files)
 
     def made(self, works: tuple[Work, ...]) -> None:
         """Note one more finished table."""

@@ -265,9 +265,9 @@ class Jobs:
         active.become(state=JobState.RUNNING)
         try:
             works = await asyncio.to_thread(active.works, index)
-            share = 1 / (len(works) * active.job.total)
+            files = len(works) * active.job.total
             for place, work in enumerate(works, index * len(works)):
-                await self._kept(work, active.observer(place * share, share))
+                await self._kept(work, active.observer(place, files))
         except StoreError:
             raise
         except NacreousError as error:

@@ -165,9 +165,9 @@ def error_message(error: Exception) -> Message:
     return Message("error", _facts(error))
 
 
-def fault_message(error: Exception) -> Message:
-    """Return what tells of an error after which the worker is not to be trusted."""
-    return Message("fault", _facts(error))
+def fault_message(error: Exception, code: int) -> Message:
+    """Return what tells of an error after which the worker is not to be trusted, with OpenCL's code of it."""
+    return Message("fault", {**_facts(error), "code": code})
 
 
 def _facts(error: Exception) -> dict[str, Any]:

@@ -25,7 +25,7 @@ from nacreous.engine.messages import (
     work_of,
 )
 from nacreous.engine.work import Product, Work, compute
-from nacreous.errors import DeviceError, NacreousError, reason
+from nacreous.errors import BudgetError, DeviceError, NacreousError, reason
 from nacreous.formats.names import FormatName
 from nacreous.opencl.budget import byte_budget
 from nacreous.opencl.device import open_device
@@ -102,11 +102,17 @@ def _made_ready() -> Message:
     try:
         if fault := _self_test_fault():
             return Message("failed", {"cause": "kernels", "reason": fault})
-        compute(Work(Spec.model_validate(_WARM_UP), FormatName.EXR))
+        _warm_up()
     except NacreousError as error:
         return Message("failed", {"cause": "kernels", "reason": str(error)})
     _fit_budget()
     return Message("ready", {"device": open_device().info.name})
+
+
+def _warm_up() -> None:
+    """Compute a small lookup texture: what it compiles and imports, most works need."""
+    with suppress(BudgetError):  # of an operator who allows even less
+        compute(Work(Spec.model_validate(_WARM_UP), FormatName.EXR))
 
 
 def _self_test_fault() -> str:
@@ -139,20 +145,27 @@ def _answer(message: Message, compute: Compute, replies: BinaryIO) -> Message:
 def _failure(error: Exception) -> Message:
     """Return what tells of a refusal, or of a fault after which this process is not to be trusted."""
     if isinstance(error.__cause__, OSError):
-        return fault_message(DeviceError(f"the worker cannot write: {reason(error.__cause__)}"))
-    if isinstance(error, NacreousError):
-        return fault_message(error) if isinstance(error, DeviceError) else error_message(error)
-    _log.error("unforeseen", exc_info=error)
+        return fault_message(DeviceError(f"the worker cannot write: {reason(error.__cause__)}"), 0)
+    if isinstance(error, NacreousError) and not isinstance(error, DeviceError):
+        return error_message(error)
+    _log.error("fault", exc_info=error)
+    return fault_message(_as_told(error), getattr(error.__cause__ or error, "code", 0))
+
+
+def _as_told(error: Exception) -> Exception:
+    """Return what the caller is told of a fault."""
+    if isinstance(error, DeviceError):
+        return error
     if isinstance(error, MemoryError):
-        return fault_message(DeviceError("the worker's memory does not suffice for this table"))
+        return DeviceError("the worker's memory does not suffice for this table")
     if type(error).__module__.startswith(_OPENCL):
-        return fault_message(DeviceError(f"the device failed: {error}"))
-    return fault_message(RuntimeError(f"{type(error).__name__}: {error}"))
+        return DeviceError(f"the device failed: {error}")
+    return RuntimeError(f"{type(error).__name__}: {error}")
 
 
 def _progress_to(replies: BinaryIO) -> Observer:
     """Return an observer that tells the supervisor, at most every 50 ms."""
-    told = time.monotonic()
+    told = float("-inf")
 
     def tell(fraction: float) -> None:
         nonlocal told

@@ -27,6 +27,9 @@ _FREE_LOSSES = 3
 """Workers in a row that may end without a product before the next is waited for, longer every time."""
 _PAUSES_S = (0.1, 2.0)
 
+_BUILD_PROGRAM_FAILURE = -11
+"""Of cl.h: all kernels have been compiled when they were tested, so that the cached form is damaged."""
+
 _STOPPED = EngineState(Readiness.STOPPED, "the engine does not run")
 _FIRST_START = EngineState(Readiness.STARTING, "the worker starts")
 _REPLACED = EngineState(Readiness.STARTING, "the worker is being replaced")
@@ -131,7 +134,7 @@ class WorkerEngine:
         except (WorkerFaultError, WorkerLostError) as loss:
             self._poison.strike(work)
             self._discard(worker)
-            if isinstance(loss, WorkerFaultError):
+            if isinstance(loss, WorkerFaultError) and loss.code == _BUILD_PROGRAM_FAILURE:
                 self._starter.suspect_kernels()
             raise
         self._poison.forgive(work)

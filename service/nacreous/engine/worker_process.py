@@ -33,10 +33,12 @@ class WorkerFaultError(Exception):
     ----------
     error : Exception
         What it met.
+    code : int
+        OpenCL's code of it, or 0.
     """
 
-    def __init__(self, error: Exception) -> None:
-        self.error = error
+    def __init__(self, error: Exception, code: int) -> None:
+        self.error, self.code = error, code
         super().__init__(str(error))
 
 
@@ -117,7 +119,7 @@ class WorkerProcess:
         if message.kind == "product":
             return product_of(message)
         if message.kind == "fault":
-            raise WorkerFaultError(error_of(message))
+            raise WorkerFaultError(error_of(message), message.fields["code"])
         raise error_of(message)
 
     def kill(self) -> None:

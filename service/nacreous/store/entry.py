@@ -8,6 +8,7 @@ to be out of step.
 
 import hashlib
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,10 +16,12 @@ from typing import Any, Self
 
 from nacreous.errors import StoreError
 
-__all__ = ["Entry"]
+__all__ = ["BEGINNING", "Entry", "begins_as_entry"]
 
 _HEX_DIGITS = 64
 _BODY = _HEX_DIGITS + 1
+BEGINNING = _BODY + 1
+"""How many bytes `begins_as_entry` wants to see."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,11 @@ class Entry:
             raise StoreError("expected an entry with its own checksum, got one that has been damaged")
         facts, _, payload = body.partition(b"\n")
         return cls(json.loads(facts), payload)
+
+
+def begins_as_entry(beginning: bytes) -> bool:
+    """Return whether bytes look like the beginning of an object: a checksum in hex and a line of JSON."""
+    return re.fullmatch(rb"[0-9a-f]{64}\n\{", beginning) is not None
 
 
 def _checksum(key: str, body: bytes) -> bytes:

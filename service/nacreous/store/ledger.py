@@ -24,9 +24,14 @@ class Account:
         self._descriptor = descriptor
 
     @property
+    def is_kept(self) -> bool:
+        """Whether there is a number at all: not in a new folder, nor after somebody has removed the file."""
+        return os.pread(self._descriptor, _DIGITS, 0).isdigit()
+
+    @property
     def total_bytes(self) -> int:
         """What is in the folder and counts."""
-        return int(os.pread(self._descriptor, _DIGITS, 0) or b"0")
+        return int(os.pread(self._descriptor, _DIGITS, 0))
 
     @total_bytes.setter
     def total_bytes(self, count: int) -> None:

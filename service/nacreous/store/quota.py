@@ -2,7 +2,8 @@
 
 The entry used the longest ago goes first (LRU), after anything in quarantine. What lies in ``jobs/`` neither
 counts nor goes. Room for a sixteenth of the quota is made at once: looking through the folder then costs
-little for each entry that is put, and a put that finds room looks at one number.
+little for each entry that is put, and a put that finds room looks at one number. Files that are no entries
+count, and stay.
 """
 
 import math
@@ -13,10 +14,11 @@ from pathlib import Path
 
 from nacreous.errors import StoreError
 from nacreous.store.census import Found, found_below
+from nacreous.store.entry import BEGINNING, begins_as_entry
 from nacreous.store.incoming import is_incoming, remove_abandoned
 from nacreous.store.keys import QUARANTINE
 from nacreous.store.ledger import Account, held
-from nacreous.store.nofollow import opened_folder
+from nacreous.store.nofollow import open_file, opened_folder
 
 __all__ = ["Quota", "counted_bytes"]
 
@@ -53,7 +55,7 @@ class Quota:
         last change, and somebody may have copied files into the folder.
         """
         with held(self._root) as account:
-            if not self._has_counted:
+            if not self._has_counted or not account.is_kept:
                 self._recount(account)
                 self._has_counted = True
             yield account
@@ -64,7 +66,7 @@ class Quota:
         Raises
         ------
         StoreError
-            They never would, or what is being written by others leaves no room.
+            They never would, or files that are no entries, or that others write just now, leave no room.
         """
         if account.total_bytes + size <= self._limit:
             return
@@ -77,7 +79,7 @@ class Quota:
             self._evict(account, entries, self._limit - size)
         if account.total_bytes + size > self._limit:
             raise StoreError(
-                f"what others write just now leaves no room for {size} bytes within the store's quota"
+                f"files that cannot be evicted leave no room for {size} bytes within the store's quota"
             )
 
     def _recount(self, account: Account) -> list[Found]:
@@ -88,9 +90,9 @@ class Quota:
         return [file for file in found if not file.is_hidden and counted_bytes(file.folders, 1)]
 
     def _stays(self, file: Found) -> bool:
-        """Return whether a file is there to stay; what a killed writer has left is removed."""
+        """Return whether a file is an entry or becomes one; what a killed writer has left is removed."""
         if not is_incoming(file.name):
-            return True
+            return not file.is_hidden
         with opened_folder(self._root, file.folders) as folder:
             return not remove_abandoned(file.name, folder)
 
@@ -101,11 +103,23 @@ class Quota:
         for file in sorted(entries, key=_worth):
             if total_bytes <= goal_bytes:
                 break
-            with opened_folder(self._root, file.folders) as folder, suppress(FileNotFoundError):
-                os.unlink(file.name, dir_fd=folder)
-            total_bytes -= file.size
-            self.evicted += 1
+            total_bytes -= self._remove(file)
         account.total_bytes = total_bytes
+
+    def _remove(self, file: Found) -> int:
+        """Remove an entry, and return what it took; a file that is none, and no damaged one, stays."""
+        with opened_folder(self._root, file.folders) as folder, suppress(FileNotFoundError):
+            if file.folders[:1] != (QUARANTINE,) and not _is_entry(file.name, folder):
+                return 0
+            os.unlink(file.name, dir_fd=folder)
+            self.evicted += 1
+        return file.size
+
+
+def _is_entry(name: str, folder: int) -> bool:
+    """Return whether a file begins as an entry does: the store may be among files of other people."""
+    with open_file(name, folder) as file:
+        return begins_as_entry(file.read(BEGINNING))
 
 
 def _worth(file: Found) -> tuple[bool, int]:

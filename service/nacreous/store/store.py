@@ -4,13 +4,19 @@ from collections.abc import Iterator
 from pathlib import Path
 from threading import Lock
 
+from fsspec.core import split_protocol  # type: ignore[import-untyped] # it ships no types
+
 from nacreous.errors import StoreError
 from nacreous.store.entry import Entry
 from nacreous.store.folder import FolderObjects
 from nacreous.store.keys import check_key, check_prefix
 from nacreous.store.objects import Objects
+from nacreous.store.remote import RemoteObjects
 
 __all__ = ["Store", "open_store"]
+
+_LOCAL = (None, "file", "local")
+"""What a URL of a local folder begins with."""
 
 
 class Store:
@@ -72,8 +78,8 @@ class Store:
         Raises
         ------
         StoreError
-            The disk is full, the entry is larger than the quota, the place cannot be reached or written; what
-            was there is as it was.
+            The disk is full, the entry is larger than the quota, or the place cannot be reached or written;
+            no part of the entry is there.
         """
         check_key(key)
         self._objects.write(key, entry.to_bytes(key))
@@ -108,9 +114,14 @@ def open_store(url: str, quota_bytes: int | None = None) -> Store:
     Parameters
     ----------
     url : str
-        Path of a folder.
+        Path of a folder, or a URL of fsspec's such as ``s3://bucket/prefix``, see `nacreous.store.remote`.
     quota_bytes : int, optional
-        Most that the entries may take; those used the longest ago make room for new ones.
+        Most that the entries in a folder may take; those used the longest ago make room for new ones.
+
+    Raises
+    ------
+    StoreError
+        The URL's driver is not installed, or a quota is asked of what is no local folder.
 
     Examples
     --------
@@ -121,4 +132,13 @@ def open_store(url: str, quota_bytes: int | None = None) -> Store:
     ...     store.get("tables/ab/ab12.exr").payload
     b'a texture'
     """
-    return Store(FolderObjects(Path(url).expanduser(), quota_bytes))
+    if not url:
+        raise StoreError("expected a folder or a URL for the store, got an empty name")
+    protocol, path = split_protocol(url)
+    if protocol in _LOCAL:
+        return Store(FolderObjects(Path(path).expanduser(), quota_bytes))
+    if quota_bytes is not None:
+        raise StoreError(
+            f"expected no quota for {url}: only a local folder has one, a bucket has rules of its own"
+        )
+    return Store(RemoteObjects(url))
