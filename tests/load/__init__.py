@@ -1,1 +1,1 @@
-"""How fast the service answers, beside plain programs in the same server: `python -m load`, tests on the path."""
+"""How fast the service answers, beside starlette alone in the same server: `python -m load`."""

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import httpx
-from served import serving
 
 from load.requests import requests_per_second
+from served import serving
 
 ROUNDS, ROUND_SECONDS = 7, 0.8
 COLD_TABLES, PROBES = 60, 400

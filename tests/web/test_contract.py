@@ -1,8 +1,8 @@
 """schemathesis over the whole OpenAPI document: whatever is sent, the answer is one that it describes.
 
-2,000 cases in every run, 20,000 where NACREOUS_SOAK is set: drawn at random, at the edges of every schema, and
-in sequences in which what one request answers is what the next one asks for. Against the real service, with
-a byte budget so small that whatever is computed is computed at once.
+In every run 2,000 cases, drawn at random. Where NACREOUS_SOAK is set 20,000, also at the edges of every
+schema, and in sequences in which what one request answers is what the next one asks for. Against the real
+service, with a byte budget so small that whatever is computed is computed at once.
 
 Two checks are left out. A spec may fit its schema and still be none: physics is not written in JSON Schema.
 And DELETE of a job ends it, after which it is there to be looked at.

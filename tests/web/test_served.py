@@ -44,7 +44,7 @@ def exchange(served: Served, sent: bytes) -> bytes:
 
 
 def trickle(served: Served, head: bytes) -> bytes:
-    """Send a byte whenever a tenth of a second has passed without an answer, and return what comes at last."""
+    """Send a byte whenever a tenth of a second has passed without an answer, and return the answer."""
     with socket.create_connection(served.address, timeout=0.1) as connection:
         connection.sendall(head)
         while True:
@@ -84,8 +84,11 @@ def test_curl_goes_on_where_it_was(served: Served, tmp_path: Path) -> None:
 
 def test_a_body_that_trickles_is_given_up(served: Served) -> None:
     """408 once the time is over, and the connection is closed: it is not held by a byte now and then."""
-    head = b"POST /v1/tables HTTP/1.1\r\nHost: n\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n"
-    answer = trickle(served, head)
+    answer = trickle(
+        served,
+        b"POST /v1/tables HTTP/1.1\r\nHost: n\r\nContent-Type: application/json\r\n"
+        b"Content-Length: 1000\r\n\r\n",
+    )
     assert answer.startswith(b"HTTP/1.1 408 ")
     assert b"application/problem+json" in answer
 

@@ -8,7 +8,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from nacreous.engine.cost import estimated_seconds
-from nacreous.engine.library import default_format
+from nacreous.engine.files import default_format
 from nacreous.engine.sweep import Sweep
 from nacreous.engine.work import Work
 from nacreous.errors import MissingError
