@@ -176,9 +176,7 @@ def test_a_bad_body_is_a_problem(app: RunningApp, route: str, body: str | bytes,
 
 @pytest.mark.parametrize(("headers", "status"), HEADERS.values(), ids=HEADERS)
 @pytest.mark.parametrize("route", ["/v1/tables", "/v1/jobs"])
-def test_a_bad_header_is_a_problem(
-    app: RunningApp, route: str, headers: dict[str, str], status: int
-) -> None:
+def test_a_bad_header_is_a_problem(app: RunningApp, route: str, headers: dict[str, str], status: int) -> None:
     """A body that is compressed, or of another type, is not looked at."""
     computed = app.computed
     check_problem(app.post(route, content=gzip.compress(film().encode()), headers=headers), status)
@@ -211,7 +209,9 @@ def test_the_byte_budget_is_named(app: RunningApp) -> None:
 
 def test_echoes_are_short(app: RunningApp) -> None:
     """A name of 5,000 characters, each of which JSON escapes, comes back cut."""
-    body = json.dumps({"stack": {"incident": "\u0001" * 5000, "substrate": "\U0001f4a9" * 5000, "layers": []}})
+    body = json.dumps(
+        {"stack": {"incident": "\u0001" * 5000, "substrate": "\U0001f4a9" * 5000, "layers": []}}
+    )
     problem = check_problem(app.post("/v1/tables", content=body, headers=JSON), 422)
     assert all(len(value) <= 500 for value in problem.values() if isinstance(value, str))
 

@@ -15,9 +15,7 @@ def url(table: Mapping[str, Any]) -> str:
     return str(table["links"]["exr"])
 
 
-@pytest.mark.parametrize(
-    "tags", ["{tag}", "W/{tag}", '"other", {tag}', "*", '  {tag}  ,"x"', '"", W/{tag}']
-)
+@pytest.mark.parametrize("tags", ["{tag}", "W/{tag}", '"other", {tag}', "*", '  {tag}  ,"x"', '"", W/{tag}'])
 @pytest.mark.parametrize("kind", ["exr", "csv", "self"])
 def test_a_known_file_is_not_sent_again(
     app: RunningApp, table: Mapping[str, Any], kind: str, tags: str
@@ -110,9 +108,9 @@ def test_every_get_is_answered_to_head(app: RunningApp, path: str) -> None:
 
 @pytest.mark.parametrize(("kind", "smaller"), [("csv", True), ("materialx", True), ("exr", False)])
 def test_text_is_compressed_and_nothing_else(
-    app: RunningApp, table: Mapping[str, Any], kind: str, smaller: bool
+    app: RunningApp, table: Mapping[str, Any], kind: str, *, smaller: bool
 ) -> None:  # fmt: skip
-    """gzip where the client takes it and it helps; the two forms have two ETags (RFC 9110, section 8.8.3.3)."""
+    """Where the client takes gzip and it helps; the two forms have two ETags (RFC 9110, section 8.8.3.3)."""
     url = table["links"][kind]
     plain = app.get(url, headers={"accept-encoding": "identity"})
     packed = app.get(url, headers={"accept-encoding": "br, gzip;q=0.8"})

@@ -86,5 +86,11 @@ def test_a_sweep_of_too_many_tables(app: RunningApp, film: Mapping[str, Any]) ->
 
 def test_no_file_of_the_server_is_a_base(app: RunningApp) -> None:
     """A base is a preset or a spec: no name leads to the file system."""
-    for base in ("/etc/passwd", "../pyproject.toml", "pyproject.toml", "soap-bubble.toml", "file:///etc/passwd"):
+    for base in (
+        "/etc/passwd",
+        "../pyproject.toml",
+        "pyproject.toml",
+        "soap-bubble.toml",
+        "file:///etc/passwd",
+    ):
         assert app.post("/v1/jobs", json={"base": base}).status_code == 422

@@ -49,7 +49,9 @@ def test_each_key_opens(guarded: RunningApp, key: str) -> None:
         {"cookie": f"key={KEYS[0]}"},
     ],
 )
-@pytest.mark.parametrize("path", ["/v1/presets", f"/v1/tables/{'a' * 64}.exr", "/metrics", "/docs", "/nothing"])
+@pytest.mark.parametrize(
+    "path", ["/v1/presets", f"/v1/tables/{'a' * 64}.exr", "/metrics", "/docs", "/nothing"]
+)
 def test_nothing_else_does(guarded: RunningApp, headers: dict[str, str], path: str) -> None:
     """401 with a challenge (RFC 6750, section 3), whether the path exists or not."""
     answer = guarded.get(path, headers=headers)

@@ -20,12 +20,12 @@ def test_pages_make_up_the_whole(app: RunningApp) -> None:
     """Offset and limit cut one list; its length is in every answer."""
     whole = app.get("/v1/materials?search=glass&limit=4000").json()
     pages = [app.get(f"/v1/materials?search=glass&offset={n}&limit=7").json() for n in (0, 7, 14)]
-    assert sum((page["materials"] for page in pages), []) == whole["materials"][:21]
+    assert [each for page in pages for each in page["materials"]] == whole["materials"][:21]
     assert {page["total"] for page in pages} == {whole["total"]}
 
 
 def test_samples_are_the_material_s(app: RunningApp) -> None:
-    """n and k over the visible are those that a spec of this name is computed with."""
+    """Over the visible, n and k are those that a spec of this name is computed with."""
     for name in ("main/Ag/Johnson", "water"):
         answer = app.get(f"/v1/materials/{name}").json()
         samples = answer["samples"]

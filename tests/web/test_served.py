@@ -44,7 +44,7 @@ def exchange(served: Served, sent: bytes) -> bytes:
 
 
 def trickle(served: Served, head: bytes) -> bytes:
-    """Send a byte whenever a tenth of a second has passed without an answer, and return what comes at last."""
+    """Send a byte whenever a tenth of a second has passed without an answer, and return the answer."""
     with socket.create_connection(served.address, timeout=0.1) as connection:
         connection.sendall(head)
         while True:
@@ -84,8 +84,11 @@ def test_curl_goes_on_where_it_was(served: Served, tmp_path: Path) -> None:
 
 def test_a_body_that_trickles_is_given_up(served: Served) -> None:
     """408 once the time is over, and the connection is closed: it is not held by a byte now and then."""
-    head = b"POST /v1/tables HTTP/1.1\r\nHost: n\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n"
-    answer = trickle(served, head)
+    answer = trickle(
+        served,
+        b"POST /v1/tables HTTP/1.1\r\nHost: n\r\nContent-Type: application/json\r\n"
+        b"Content-Length: 1000\r\n\r\n",
+    )
     assert answer.startswith(b"HTTP/1.1 408 ")
     assert b"application/problem+json" in answer
 
@@ -105,14 +108,17 @@ def test_a_trickling_body_that_nobody_reads_is_given_up(served: Served) -> None:
 @pytest.mark.parametrize("complete", [True, False])
 def test_64_kb_of_header_are_refused(served: Served, complete: bool) -> None:  # noqa: FBT001 - parametrised
     """431, whether the header ends or not, and before it is kept."""
-    header = b"GET /healthz HTTP/1.1\r\nHost: n\r\nX-Long: " + b"x" * 65536 + (b"\r\n\r\n" if complete else b"")
+    header = (
+        b"GET /healthz HTTP/1.1\r\nHost: n\r\nX-Long: " + b"x" * 65536 + (b"\r\n\r\n" if complete else b"")
+    )
     answer = exchange(served, header.replace(b"healthz", b"v1/presets"))
     assert answer.startswith(b"HTTP/1.1 431 ")
     assert b"application/problem+json" in answer
 
 
 @pytest.mark.parametrize(
-    "sent", [b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"\x00" * 100]
+    "sent",
+    [b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"\x00" * 100],
 )
 def test_what_is_no_http_is_refused(served: Served, sent: bytes) -> None:
     """400 as a problem, and an end."""

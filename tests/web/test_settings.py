@@ -53,7 +53,13 @@ def test_keys_are_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("port", "70000"), ("api_keys", "short"), ("log_level", "loud"), ("max_body", "1"), ("concurrency", "0")],
+    [
+        ("port", "70000"),
+        ("api_keys", "short"),
+        ("log_level", "loud"),
+        ("max_body", "1"),
+        ("concurrency", "0"),
+    ],
 )
 def test_a_wrong_setting_is_refused(monkeypatch: pytest.MonkeyPatch, name: str, value: str) -> None:
     """Before anything is started."""

@@ -13,7 +13,7 @@ from nacreous.store.entry import Entry
 from nacreous.web.caching import FileResponse, Representation, compressed
 from nacreous.web.links import TRANSMISSION
 
-__all__ = ["COMPRESSED", "file_response", "format_of_suffix", "representation", "split_file_name"]
+__all__ = ["COMPRESSED", "SUFFIXES", "file_response", "format_of_suffix", "representation", "split_file_name"]
 
 COMPRESSED = frozenset({FormatName.CSV, FormatName.MATERIALX, FormatName.GLTF})
 """Formats of text; all others are compressed already, or do not become smaller."""
@@ -21,6 +21,10 @@ COMPRESSED = frozenset({FormatName.CSV, FormatName.MATERIALX, FormatName.GLTF})
 _COMPANIONS = (FormatName.EXR, FormatName.PNG)
 _BY_SUFFIX = {entry.suffix: entry for entry in FORMATS.values()}
 _BY_SUFFIX |= {f"{TRANSMISSION}{FORMATS[name].suffix}": FORMATS[name] for name in _COMPANIONS}
+
+
+SUFFIXES = tuple(suffix.removeprefix(".") for suffix in _BY_SUFFIX)
+"""What the name of a file may end in."""
 
 
 def split_file_name(name: str) -> tuple[str, str]:

@@ -42,7 +42,7 @@ def describe(name: str) -> MaterialAnswer:
 
 
 def _samples(listing: Listing) -> Samples:
-    """Sample the visible part of what is known, or all where none is visible; nothing where n is not known."""
+    """Sample the visible part of what is known, or all where none is visible; nothing where n is unknown."""
     first, last = listing.range_nm
     visible = max(first, _VISIBLE_NM[0]), min(last, _VISIBLE_NM[1])
     ends = visible if visible[0] < visible[1] else (first, last)

@@ -6,6 +6,7 @@ that of a spec is `Spec`'s own.
 
 from collections.abc import Mapping
 from http import HTTPStatus
+from types import MappingProxyType
 from typing import Any
 
 from fastapi import FastAPI
@@ -27,6 +28,7 @@ __all__ = [
     "READS_SWEEP",
     "answered",
     "binary",
+    "operation_link",
     "problems",
     "query_parameter",
     "use_openapi",
@@ -42,17 +44,29 @@ Extra = dict[str, Any]
 Responses = dict[int | str, dict[str, Any]]
 
 
-def answered(model: type[BaseModel], *statuses: HTTPStatus, headers: tuple[str, ...] = ()) -> Responses:
-    """Return the entry of an answer in JSON."""
+def answered(
+    model: type[BaseModel],
+    *statuses: HTTPStatus,
+    headers: tuple[str, ...] = (),
+    links: Mapping[str, Any] = MappingProxyType({}),
+) -> Responses:
+    """Return the entry of an answer in JSON, with its headers and with where its values lead."""
     described = {name: {"schema": {"type": "string"}} for name in headers}
+    extras = {"headers": described, "links": dict(links)}
     return {
         status.value: {
             "model": model,
             "description": (model.__doc__ or "").strip(),
-            **({"headers": described} if described else {}),
+            **{name: extra for name, extra in extras.items() if extra},
         }
         for status in statuses
     }
+
+
+def operation_link(path: str, **parameters: str) -> dict[str, Any]:
+    """Return the entry of a link: the GET of a path, with values of the answer as its parameters."""
+    escaped = path.replace("~", "~0").replace("/", "~1")
+    return {"operationRef": f"#/paths/{escaped}/get", "parameters": parameters}
 
 
 def problems(*statuses: int) -> Responses:

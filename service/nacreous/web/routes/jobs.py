@@ -97,7 +97,7 @@ async def cancel_job(request: Request, job_id: JobId) -> Response:
     responses={
         200: {
             "description": "A job's progress at every change; the stream ends with the job.",
-            "content": {_EVENTS: {"schema": {"type": "string"}}},
+            "content": {_EVENTS: {}},
         },
         **problems(404),
     },

@@ -18,7 +18,7 @@ from nacreous.web.links import preset_links
 from nacreous.web.openapi import CONDITIONS, answered, binary, problems, query_parameter
 from nacreous.web.presets import check_preset, preset_work
 from nacreous.web.queries import query
-from nacreous.web.routes.tables import job_of
+from nacreous.web.routes.tables import Suffix, job_of
 from nacreous.web.service import service_of
 
 __all__ = ["router"]
@@ -79,7 +79,7 @@ def _entry(name: str) -> dict[str, object]:
 async def preset_file(
     request: Request,
     name: PresetName,
-    suffix: Annotated[str, Path(description="Such as exr, transmission.exr, png, mtlx.")],
+    suffix: Suffix,
 ) -> Response:
     """Get a file of a preset, as it is or with its layers thicker or thinner; otherwise as a table's file."""
     service = service_of(request)

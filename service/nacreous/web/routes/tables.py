@@ -8,7 +8,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from nacreous.engine.cost import estimated_seconds
-from nacreous.engine.library import default_format
+from nacreous.engine.files import default_format
 from nacreous.engine.sweep import Sweep
 from nacreous.engine.work import Work
 from nacreous.errors import MissingError
@@ -16,29 +16,34 @@ from nacreous.formats.registry import FORMATS
 from nacreous.tables.spec import Spec
 from nacreous.web.answers import JobAccepted, TableAdded, TableAnswer, document, json_response
 from nacreous.web.bodies import read_document
-from nacreous.web.files import file_response, format_of_suffix, representation, split_file_name
+from nacreous.web.files import SUFFIXES, file_response, format_of_suffix, representation, split_file_name
 from nacreous.web.hot_files import TABLE_FILE
 from nacreous.web.ids import checked_id
 from nacreous.web.links import table_links
-from nacreous.web.openapi import CONDITIONS, HEX_ID, READS_SPEC, answered, binary, problems
+from nacreous.web.openapi import CONDITIONS, HEX_ID, READS_SPEC, answered, binary, operation_link, problems
 from nacreous.web.queries import query
 from nacreous.web.routes.jobs import job_answer
 from nacreous.web.service import Service, service_of
 from nacreous.web.sizes import check_size
 
-__all__ = ["job_of", "router"]
+__all__ = ["Suffix", "job_of", "router"]
 
 router = APIRouter(tags=["tables"])
 
 TableId = Annotated[str, Path(description="64 lower-case hex digits.", json_schema_extra=HEX_ID)]
+Suffix = Annotated[str, Path(description="By format.", json_schema_extra={"enum": [*SUFFIXES]})]
 _LOCATION = ("Location",)
+_LINKS = {
+    "table": operation_link("/v1/tables/{table_id}", table_id="$response.body#/id"),
+    "file": operation_link(TABLE_FILE, table_id="$response.body#/id", suffix="npz"),
+}
 
 
 @router.post(
     "/v1/tables",
     status_code=HTTPStatus.CREATED,
     responses={
-        **answered(TableAdded, HTTPStatus.CREATED, HTTPStatus.OK, headers=_LOCATION),
+        **answered(TableAdded, HTTPStatus.CREATED, HTTPStatus.OK, headers=_LOCATION, links=_LINKS),
         **answered(JobAccepted, HTTPStatus.ACCEPTED, headers=_LOCATION),
         **problems(400, 408, 413, 415, 429, 500, 504),
     },
@@ -91,7 +96,7 @@ def _json(body: bytes, status: HTTPStatus, location: str) -> Response:
 async def table_file(
     request: Request,
     table_id: TableId,
-    suffix: Annotated[str, Path(description="Such as exr, transmission.exr, spectral.exr, npz.")],
+    suffix: Suffix,
 ) -> Response:
     """Get a file of a table: immutable, with its SHA-256 as ETag; ranges and If-None-Match are heeded.
 
