@@ -64,7 +64,7 @@ def download(link: str, path: Path, listeners: Listeners, retry: Retry) -> Steps
             succeeded((yield from waited(job, listeners.progress, retry)))
             job = yield from _arrival(link, part, listeners.received, Patience(retry))
         if job is not None:
-            raise AnswerError(f"expected the file of job {job.id[:16]}…, which is done, got another job")
+            raise AnswerError(f"expected the file that job {job.id[:16]}… has made, got the job once more")
         found = Download(path, part.sha256, part.size)
         part.complete()
     finally:
