@@ -34,13 +34,13 @@ class Rooms:
 
 @asynccontextmanager
 async def opened(
-    folder: Path,
+    place: Path | str,
     quota_bytes: int | None = None,
     limits: JobLimits | None = None,
     engine: InProcessEngine | None = None,
 ) -> AsyncIterator[Rooms]:
-    """Open a library on a folder, with an engine of this process; close it as a server does."""
-    store, engine = open_store(str(folder), quota_bytes), engine or InProcessEngine()
+    """Open a library on a folder or a URL, with an engine of this process; close it as a server does."""
+    store, engine = open_store(str(place), quota_bytes), engine or InProcessEngine()
     library = Library(store, engine)
     jobs = Jobs(library, store, limits)
     await engine.start()

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from nacreous.engine.files import file_key, table_key
-from nacreous.errors import MissingError, SpecError
+from nacreous.errors import MissingError, SpecError, StoreError
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import write
 from nacreous.tables.spec import LABELS
@@ -132,12 +132,17 @@ def test_what_cannot_be_stored_is_answered(tmp_path: Path) -> None:
     asyncio.run(test())
 
 
-def test_a_store_that_cannot_be_read_is_one_that_has_nothing(tmp_path: Path) -> None:
-    """Where the folder's place is taken by a file, tables are computed all the same."""
-    (tmp_path / "store").write_text("no folder")
+def test_a_store_that_cannot_be_reached_is_one_that_has_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nobody listens at the S3 endpoint, tables are computed, answered and counted."""
+    monkeypatch.setenv("AWS_ENDPOINT_URL", "http://127.0.0.1:9")
+    monkeypatch.setenv("AWS_ACCESS_KEY_ID", "nobody")
+    monkeypatch.setenv("AWS_SECRET_ACCESS_KEY", "nothing")
+    monkeypatch.setenv("AWS_MAX_ATTEMPTS", "1")
 
     async def test() -> None:
-        async with opened(tmp_path / "store") as rooms:
+        async with opened("s3://nowhere/store") as rooms:
+            with pytest.raises(StoreError):
+                await rooms.library.record(small_work().id)
             assert (await rooms.library.file(small_work())).payload
             assert rooms.library.uncached == 1
 
@@ -194,6 +199,8 @@ def test_an_evicted_file_is_computed_from_its_record(tmp_path: Path) -> None:
             with pytest.raises(MissingError, match="send its spec"):
                 await rooms.library.table_file(added.id, ".png")
             assert rooms.engine.computed == 0
+
+    asyncio.run(test())
 
 
 def test_a_record_that_has_gone_comes_back_with_its_spec(tmp_path: Path) -> None:
@@ -291,7 +298,7 @@ def test_one_of_200_cold_requests_that_stays_is_answered(tmp_path: Path, begun: 
             assert (await staying).facts["id"] == small_work().id
             gone = await together(*leaving)
             assert all(isinstance(result, asyncio.CancelledError) for result in gone)
-        assert rooms.engine.computed == 1
+        assert (rooms.engine.computed, rooms.library.misses) == (1, 1)
 
     asyncio.run(test())
 

@@ -49,7 +49,7 @@ def test_workers_that_end_one_after_the_other_do_not_take_the_service_along(tmp_
 
     async def crashed() -> None:
         async with running(faulty("crashing", str(tmp_path / "begun"))) as engine:
-            for number in range(scale(2, 20)):
+            for number in range(scale(1, 20)):
                 with pytest.raises(UnavailableError, match="lost twice"):
                     await engine.compute(film_work(1001.0 + number))
             assert (await engine.compute(film_work())).files

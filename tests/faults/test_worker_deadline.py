@@ -43,7 +43,7 @@ async def check_deadline(engine: WorkerEngine, thickness_nm: float) -> None:
 
 
 def test_a_kernel_that_never_ends_is_ended() -> None:
-    """An OpenCL kernel that loops for ever costs its caller the deadline, and its worker; the next is done."""
+    """An OpenCL kernel that loops for ever costs the deadline and a worker; the next work is done."""
 
     async def hung() -> None:
         async with running(faulty("endless", deadline_s=DEADLINE_S)) as engine:

@@ -87,6 +87,7 @@ def test_a_worker_that_dies_while_it_starts_is_started_again() -> None:
                 await asyncio.sleep(0.01)
             children[0].kill()
             assert (await waiting).files
+            assert engine.kernel_wipes == 0
 
     patiently(killed())
 
@@ -123,6 +124,7 @@ def test_stop_ends_every_process() -> None:
 
 def test_a_stop_waits_no_longer_than_its_grace() -> None:
     """A kernel that never ends is ended after the grace time, and its caller told."""
+
     async def stopped() -> None:
         async with running(faulty("endless", grace_s=0.2)) as engine:
             begun = asyncio.Event()

@@ -23,7 +23,10 @@ open_store(sys.argv[1]).put(sys.argv[2], Entry({"id": "ab12"}, b"a texture"))
 
 
 def test_the_environment_says_where_s3_is(bucket: str, s3_endpoint: str) -> None:
-    """The variables that `nacreous.store.remote` names are enough for another process."""
+    """The variables named in `nacreous.store.remote` are enough for another process, whose entry is seen."""
+    store = open_store(bucket)
+    store.put("tables/ab/other.exr", ENTRY)
+    assert (list(store.keys()), store.has(KEY)) == (["tables/ab/other.exr"], False)
     aws = {
         "AWS_ACCESS_KEY_ID": "nobody",
         "AWS_SECRET_ACCESS_KEY": "nothing",
@@ -31,7 +34,7 @@ def test_the_environment_says_where_s3_is(bucket: str, s3_endpoint: str) -> None
     }
     environment = {**os.environ, **aws, "FSSPEC_S3_ENDPOINT_URL": s3_endpoint}
     subprocess.run([sys.executable, "-c", ONE_PUT, bucket, KEY], env=environment, check=True)
-    assert open_store(bucket).get(KEY) == ENTRY
+    assert (store.has(KEY), store.get(KEY), len(list(store.keys()))) == (True, ENTRY, 2)
 
 
 def test_stores_of_one_bucket_are_apart(bucket: str) -> None:

@@ -39,10 +39,11 @@ def test_what_is_not_there_is_none(store: Store) -> None:
 def test_another_process_sees_it(url: str) -> None:
     """What one store puts or deletes is so for every other one at the same place."""
     here, there = open_store(url), open_store(url)
-    assert not there.has(KEY)
+    assert (there.has(KEY), list(here.keys()), list(there.keys())) == (False, [], [])
     here.put(KEY, ENTRY)
     assert there.get(KEY) == ENTRY
     assert (there.has(KEY), list(there.keys())) == (True, [KEY])
+    assert (list(here.keys()), list(here.keys("tables/ab/"))) == ([KEY], [KEY])
     there.delete(KEY)
     assert (here.has(KEY), list(here.keys()), here.get(KEY)) == (False, [], None)
 

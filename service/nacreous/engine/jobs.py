@@ -34,7 +34,8 @@ __all__ = ["Failure", "Job", "JobLimits", "JobState", "Jobs"]
 
 _log = logging.getLogger(__name__)
 
-_ENDED_IN_MEMORY = 64
+_ENDED_IN_MEMORY = 16
+"""Jobs of 10,000 tables have names of 2 MB; those that ended before are read from their manifests."""
 _TRIES = 3
 """How often a table is tried that a ready engine cannot compute just then."""
 _WAIT_S = (0.05, 5.0)
@@ -286,7 +287,7 @@ class Jobs:
                 if tries == _TRIES:
                     raise
                 least, most = _WAIT_S
-                await asyncio.sleep(min(most, max(least, getattr(error, "retry_after_s", least))))
+                await asyncio.sleep(min(most, max(least, getattr(error, "retry_after_s", 1.0))))
 
     async def _finish(self, active: ActiveJob) -> None:
         failed = active.job.failed == active.job.total

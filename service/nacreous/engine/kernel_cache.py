@@ -51,11 +51,9 @@ class KernelCache:
 
     def wipe(self) -> None:
         """Remove all kernels; what cannot be removed stays."""
-        for path in self.folder.iterdir():
-            if path.is_dir():
-                shutil.rmtree(path, ignore_errors=True)
-            else:
-                _remove(path)
+        for path in self.folder.glob("*"):
+            shutil.rmtree(path, ignore_errors=True)
+            _remove(path)
 
     def release(self) -> None:
         """Let others have the folder."""

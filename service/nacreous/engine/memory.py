@@ -7,6 +7,7 @@ from pathlib import Path
 __all__ = ["cap_address_space", "headroom_bytes"]
 
 _KIB = 2**10
+_GROUP = Path("/sys/fs/cgroup")
 
 
 def cap_address_space(limit_bytes: int) -> None:
@@ -33,20 +34,18 @@ def _machine_left() -> int | None:
 
 
 def _group_left() -> int | None:
-    """Return what the limit of a container leaves (Linux, control groups version 2)."""
-    folder = Path("/sys/fs/cgroup")
-    limit, used = (_number(folder / name) for name in ("memory.max", "memory.current"))
-    return None if limit is None or used is None else max(0, limit - used)
+    """Return what the limit of a container leaves (Linux, control groups version 2).
+
+    Memory that caches files does not count: the system gives it up.
+    """
+    limit = _text(_GROUP / "memory.max").strip()
+    used = re.search(r"^anon (\d+)$", _text(_GROUP / "memory.stat"), re.MULTILINE)
+    return max(0, int(limit) - int(used[1])) if limit.isdecimal() and used else None
 
 
 def _kib_of(path: Path, name: str) -> int | None:
     match = re.search(rf"^{name}:\s*(\d+) kB$", _text(path), re.MULTILINE)
     return int(match[1]) * _KIB if match else None
-
-
-def _number(path: Path) -> int | None:
-    text = _text(path).strip()
-    return int(text) if text.isdecimal() else None
 
 
 def _text(path: Path) -> str:

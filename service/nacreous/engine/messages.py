@@ -1,13 +1,13 @@
 """What the supervisor and its worker say to each other, over two pipes.
 
-A message is two big-endian numbers, the lengths of what follows (4 and 8 bytes), an object of JSON, and
-raw bytes. Nothing is pickled: whatever came over the pipe, reading it runs no code.
+A message is the length of its head (4 bytes, big-endian), the head, which is an object of JSON, and raw
+bytes, whose lengths the head has. Nothing is pickled: reading what came over the pipe runs no code.
 """
 
 import json
 import struct
 from asyncio import IncompleteReadError, StreamReader
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, BinaryIO
 
@@ -38,7 +38,7 @@ __all__ = [
     "work_of",
 ]
 
-_LENGTHS = struct.Struct(">IQ")
+_LENGTH = struct.Struct(">I")
 _CHUNK_BYTES = 2**20
 
 _CLASSES: Mapping[str, type[Exception]] = {
@@ -59,39 +59,37 @@ _CLASSES: Mapping[str, type[Exception]] = {
 
 @dataclass(frozen=True)
 class Message:
-    """What is said: its kind, further fields fit for JSON, and bytes."""
+    """What is said: its kind, further fields fit for JSON, and pieces of raw bytes."""
 
     kind: str
     fields: Mapping[str, Any]
-    payload: bytes = b""
+    payloads: tuple[bytes, ...] = ()
 
-    def to_bytes(self) -> bytes:
-        """Return the message as the pipe carries it."""
-        head = json.dumps({"kind": self.kind, **self.fields}, separators=(",", ":")).encode()
-        return b"".join((_LENGTHS.pack(len(head), len(self.payload)), head, self.payload))
-
-    @classmethod
-    def from_parts(cls, head: bytes, payload: bytes) -> "Message":
-        """Return the message of a head and a payload; raises ValueError where the head is none."""
-        fields = json.loads(head)
-        if not isinstance(fields, dict) or not isinstance(fields.get("kind"), str):
-            raise ValueError(f"expected a message, got {head[:80]!r}")  # noqa: TRY004 - of any bad content
-        return cls(fields.pop("kind"), fields, payload)
+    def pieces(self) -> tuple[bytes, ...]:
+        """Return what goes through the pipe, piece after piece: a file of many megabytes is not copied."""
+        head = {
+            "kind": self.kind,
+            "fields": dict(self.fields),
+            "lengths": [len(each) for each in self.payloads],
+        }
+        text = json.dumps(head, separators=(",", ":")).encode()
+        return (_LENGTH.pack(len(text)), text, *self.payloads)
 
 
 def send(pipe: BinaryIO, message: Message) -> None:
     """Write a message and flush."""
-    pipe.write(message.to_bytes())
+    for piece in message.pieces():
+        pipe.write(piece)
     pipe.flush()
 
 
 def receive(pipe: BinaryIO) -> Message | None:
     """Read a message; nothing where the other side has closed the pipe."""
-    lengths = pipe.read(_LENGTHS.size)
-    if len(lengths) < _LENGTHS.size:
+    length = pipe.read(_LENGTH.size)
+    if len(length) < _LENGTH.size:
         return None
-    head, payload = _LENGTHS.unpack(lengths)
-    return Message.from_parts(pipe.read(head), pipe.read(payload))
+    kind, fields, lengths = _parsed(pipe.read(*_LENGTH.unpack(length)))
+    return Message(kind, fields, tuple(pipe.read(size) for size in lengths))
 
 
 async def read(stream: StreamReader) -> Message:
@@ -99,13 +97,23 @@ async def read(stream: StreamReader) -> Message:
 
     Raises
     ------
-    IncompleteReadError
+    EOFError
         The other side has closed the pipe.
     ValueError
         What came is no message.
     """
-    head, payload = _LENGTHS.unpack(await stream.readexactly(_LENGTHS.size))
-    return Message.from_parts(await stream.readexactly(head), await _read_long(stream, payload))
+    (length,) = _LENGTH.unpack(await stream.readexactly(_LENGTH.size))
+    kind, fields, lengths = _parsed(await stream.readexactly(length))
+    return Message(kind, fields, tuple([await _read_long(stream, size) for size in lengths]))
+
+
+def _parsed(text: bytes) -> tuple[str, dict[str, Any], list[int]]:
+    """Return the parts of a head; raises ValueError where it is none."""
+    try:
+        head = json.loads(text)
+        return head["kind"], head["fields"], head["lengths"]
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"expected the head of a message, got {text[:80]!r}") from error
 
 
 async def _read_long(stream: StreamReader, length: int) -> bytes:
@@ -126,12 +134,13 @@ async def _read_long(stream: StreamReader, length: int) -> bytes:
 
 def work_message(work: Work) -> Message:
     """Return what asks for a work."""
-    return Message("work", {"format": work.format, "stem": work.stem}, work.spec.model_dump_json().encode())
+    spec = work.spec.model_dump_json().encode()
+    return Message("work", {"format": work.format, "stem": work.stem}, (spec,))
 
 
 def work_of(message: Message) -> Work:
     """Return the work that is asked for."""
-    spec = Spec.model_validate_json(message.payload)
+    spec = Spec.model_validate_json(*message.payloads)
     return Work(spec, FormatName(message.fields["format"]), message.fields["stem"])
 
 
@@ -139,25 +148,18 @@ def product_message(product: Product) -> Message:
     """Return what brings a product."""
     fields = {
         "id": product.id,
-        "files": [[file.suffix, len(file.payload)] for file in product.files],
+        "suffixes": [file.suffix for file in product.files],
         "certificate": dict(product.certificate),
         "seconds": product.seconds,
     }
-    return Message("product", fields, b"".join(file.payload for file in product.files))
+    return Message("product", fields, tuple(file.payload for file in product.files))
 
 
 def product_of(message: Message) -> Product:
     """Return the product that is brought."""
     fields = message.fields
-    files = tuple(_files(fields["files"], memoryview(message.payload)))
+    files = tuple(map(File, fields["suffixes"], message.payloads))
     return Product(fields["id"], files, fields["certificate"], fields["seconds"])
-
-
-def _files(sizes: list[tuple[str, int]], payload: memoryview) -> Iterator[File]:
-    begin = 0
-    for suffix, size in sizes:
-        yield File(suffix, bytes(payload[begin : begin + size]))
-        begin += size
 
 
 def error_message(error: Exception) -> Message:

@@ -5,6 +5,7 @@ driver prints goes to stderr. It ends when the supervisor closes its pipe, or is
 """
 
 import ctypes
+import fcntl
 import logging
 import os
 import signal
@@ -46,6 +47,8 @@ _PR_SET_PDEATHSIG = 1
 """Of <linux/prctl.h>: a signal that the system sends when the thread that started this process ends."""
 _OPENCL = "pyopencl"
 """Where the errors of OpenCL are from that nobody has made a `DeviceError` of."""
+_PIPE_BYTES = 2**20
+"""The most that Linux gives without asking: files cross in fewer pieces."""
 _PROGRESS_S = 0.05
 _COPIES = 3
 """What a table takes for each byte that is counted: it is assembled, converted and written from copies."""
@@ -80,6 +83,8 @@ def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
     with open(os.devnull) as nothing:  # noqa: PTH123 - a name of the system, no path
         os.dup2(nothing.fileno(), 0)
     os.dup2(2, 1)
+    with suppress(OSError, AttributeError):  # no pipe but a socket, or no Linux
+        fcntl.fcntl(replies, fcntl.F_SETPIPE_SZ, _PIPE_BYTES)
     return os.fdopen(requests, "rb"), os.fdopen(replies, "wb")
 
 

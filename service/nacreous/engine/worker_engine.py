@@ -162,6 +162,11 @@ class WorkerEngine:
         try:
             while True:
                 await self._keep_worker()
+        except Exception as error:
+            _log.exception("the supervision has failed")
+            self._become(EngineState(Readiness.FAILED, f"the supervision has failed: {error}"))
+            self._turns.refuse_waiting(self._unavailable)
+            raise
         finally:
             self._starter.close()
 

@@ -150,10 +150,10 @@ class WorkerProcess:
     async def _write(self, message: Message) -> None:
         assert self._process.stdin is not None  # noqa: S101 - it has been started with PIPE
         try:
-            self._process.stdin.write(message.to_bytes())
+            self._process.stdin.writelines(message.pieces())
             await self._process.stdin.drain()
         except OSError as error:
-            raise WorkerLostError from error
+            raise WorkerLostError("it takes nothing") from error
 
     async def _read(self) -> Message:
         assert self._process.stdout is not None  # noqa: S101 - it has been started with PIPE
@@ -161,7 +161,7 @@ class WorkerProcess:
             return await read(self._process.stdout)
         except (EOFError, OSError, ValueError) as error:
             self.kill()
-            raise WorkerLostError from error
+            raise WorkerLostError("it has ended in mid-work") from error
 
     async def _pass_on_lines(self) -> None:
         """Log what the worker, its driver and its compilers print."""

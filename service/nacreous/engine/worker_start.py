@@ -56,11 +56,10 @@ class WorkerStarter:
     async def start(self) -> WorkerProcess:
         """Return a worker that is ready; raises `DeviceError` with the reason where none is, in one line."""
         try:
-            await asyncio.to_thread(self._prepare)
+            await self._prepared()
             worker = await self._ready_worker()
-        except (DeviceError, OSError, StartError) as error:
-            without_device = isinstance(error, StartError) and error.cause == "device"
-            self.failures = max(self.failures, _FREE_STARTS - 1 if without_device else 0) + 1
+        except (DeviceError, OSError) as error:
+            self.failures += 1
             raise DeviceError(_one_line(error)) from error
         self.failures = 0
         return worker
@@ -80,6 +79,14 @@ class WorkerStarter:
             shutil.rmtree(self._scratch, ignore_errors=True)
         self._cache = self._scratch = None
 
+    async def _prepared(self) -> None:
+        """Prepare in a thread: a disk may be slow. It takes a lock, so that it is waited for in any case."""
+        preparing = asyncio.create_task(asyncio.to_thread(self._prepare))
+        try:
+            await asyncio.shield(preparing)
+        finally:
+            await asyncio.wait([preparing])
+
     def _prepare(self) -> None:
         """Have folders for a worker: for its kernels, and for files that are gone with it."""
         self._prepare_cache()
@@ -91,8 +98,6 @@ class WorkerStarter:
         if self._cache and (self.failures >= _FREE_STARTS - 1 or not self._cache.usable):
             self._cache.release()
             self._cache = None
-        if self.failures == 1:
-            self.suspect_kernels()
         if self._cache is None:
             elsewhere = self.failures >= _FREE_STARTS - 1
             self._cache = take_temporary_cache() if elsewhere else take_cache(self._settings.cache_folder)
@@ -102,15 +107,23 @@ class WorkerStarter:
         try:
             async with asyncio.timeout(self._settings.start_s):
                 await worker.ready()
-        except WorkerLostError:
-            raise DeviceError(await worker.ended()) from None
-        except TimeoutError:
-            await worker.close(0)
-            raise DeviceError(f"the worker is not ready within {self._settings.start_s:g} s") from None
+        except (StartError, TimeoutError, WorkerLostError) as error:
+            raise DeviceError(await self._why(worker, error)) from error
         except BaseException:
             await worker.close(0)
             raise
         return worker
+
+    async def _why(self, worker: WorkerProcess, error: Exception) -> str:
+        """Return why a worker is not ready, once it has ended; do what may help the next one."""
+        await worker.close(0)
+        if isinstance(error, StartError) and error.cause == "device":
+            self.failures = max(self.failures, _FREE_STARTS - 1)  # nothing else can be tried
+        elif isinstance(error, StartError | TimeoutError) or not worker.killed:
+            self.suspect_kernels()
+        if isinstance(error, TimeoutError):
+            return f"the worker is not ready within {self._settings.start_s:g} s"
+        return str(error) if isinstance(error, StartError) else await worker.ended()
 
     def _environment(self) -> dict[str, str]:
         """Return the worker's environment: this process's own, and what the settings say."""

@@ -101,8 +101,10 @@ class RemoteObjects:
         """Return the size in bytes of each object below a folder."""
         with _explained("the store cannot be listed"), suppress(FileNotFoundError):
             self._files.invalidate_cache()
-            found = self._files.find(self._path(folder).rstrip("/"), detail=True)
-            return {name.removeprefix(self._path("")): int(about["size"]) for name, about in found.items()}
+            found = self._files.find(self._path(folder).rstrip("/"), detail=True).items()
+            # S3's driver lists a prefix itself where its first object comes while it is being listed.
+            sizes = {name: int(about["size"]) for name, about in found if about["type"] == "file"}
+            return {name.removeprefix(self._path("")): size for name, size in sizes.items()}
         return {}
 
     def _path(self, key: str) -> str:

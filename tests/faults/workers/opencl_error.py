@@ -22,7 +22,11 @@ def compute_or_fail(work: Work, observer: Observer) -> Product:
 
     def refuse(*_: object) -> None:
         record = cl._cl._ErrorRecord("clEnqueueNDRangeKernel", CODE, "")
-        raise cl.MemoryError(record) if CODE == cl.status_code.MEM_OBJECT_ALLOCATION_FAILURE else cl.RuntimeError(record)
+        raise (
+            cl.MemoryError(record)
+            if CODE == cl.status_code.MEM_OBJECT_ALLOCATION_FAILURE
+            else cl.RuntimeError(record)
+        )
 
     if left := LEFT.read_text():
         LEFT.write_text(left[1:])
