@@ -1,4 +1,4 @@
-"""Send schemathesis' cases at the edges of every schema: `python -m contract_cases URL CASES`, on tests' path.
+"""Send schemathesis' cases at the edges of every schema: `python -m contract_cases URL CASES`.
 
 There are some 16,000 of them; of each operation's an equal share is sent, spread evenly over all. Prints how
 many, by operation and by status, as JSON; ends with 1 at the first failure, with what schemathesis says.
@@ -11,16 +11,17 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import schemathesis
-import schemathesis_hooks  # how TOML is sent
 from schemathesis import Case, GenerationMode
 from schemathesis.checks import CHECKS
 from schemathesis.core.failures import FailureGroup
 
+import schemathesis_hooks  # noqa: F401 - it says how TOML is sent
+
 __all__ = ["LEFT_OUT"]
 
 LEFT_OUT = ("positive_data_acceptance", "use_after_free")
-"""A spec may fit its schema and still be none: physics is not written in JSON Schema. And DELETE of a job ends
-it, after which it is there to be looked at."""
+"""A spec may fit its schema and still be none: physics is not written in JSON Schema. And DELETE of a job
+ends it, after which it is there to be looked at."""
 
 _MODES = [GenerationMode.POSITIVE, GenerationMode.NEGATIVE]
 

@@ -23,7 +23,7 @@ CASES, SOAKED_CASES = 2_000, 20_000
 
 @pytest.fixture
 def served(tmp_path: Path) -> Iterator[Served]:
-    """Return a service of small tables and short jobs, which ends in order and without an unforeseen error."""
+    """Return a service of small tables and short jobs, which ends without an unforeseen error."""
     pytest.importorskip("schemathesis")
     with serving(tmp_path / "store", byte_budget="1M", job_tables=4, deadline_seconds=10) as running:
         running.await_ready()
