@@ -5,14 +5,17 @@ import importlib
 import os
 import pkgutil
 import re
+import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 import nacreous
+from served import serving
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted(
@@ -22,6 +25,9 @@ PAGES = sorted(
 )
 NOT_RUN = "<!-- not run:"
 """Stands, with a reason, in the line above a block that is shown but not run."""
+
+SERVICE = "http://localhost:8000"
+"""Where the pages say that a service is; blocks that name it run against one on a port that is free."""
 
 _BLOCK = re.compile(r"(?P<above>[^\n]*)\n```(?P<language>\w+)\n(?P<text>.*?)\n```", re.DOTALL)
 _LINK = re.compile(r"\]\((?!https?:)([^)#]+)(?:#[^)]*)?\)")
@@ -75,13 +81,39 @@ def _run(command: list[str], folder: Path, path: str) -> None:
 RUNNERS = {"sh": run_shell, "python": run_python, "toml": run_toml}
 
 
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Run the service, and return where it is."""
+    with serving(tmp_path_factory.mktemp("service")) as served:
+        served.await_ready()
+        yield served.url
+
+
 @pytest.mark.parametrize(
     "page", [p for p in PAGES if runnable_blocks(p)], ids=lambda page: str(page.relative_to(ROOT))
 )
-def test_the_blocks_of_a_page_run_in_order(page: Path, tmp_path: Path) -> None:
+def test_the_blocks_of_a_page_run_in_order(
+    page: Path, tmp_path: Path, request: pytest.FixtureRequest
+) -> None:
     """A reader may type what a page shows, from its top to its bottom, in one folder."""
     for block in runnable_blocks(page):
-        RUNNERS[block.language](block.text, tmp_path)
+        text = block.text
+        if "curl" in text and not shutil.which("curl"):
+            pytest.skip("the package curl is not installed")
+        if SERVICE in text:
+            text = text.replace(SERVICE, request.getfixturevalue("service"))
+        RUNNERS[block.language](text, tmp_path)
+
+
+def test_the_calls_of_a_service_leave_what_it_says(service: str, tmp_path: Path) -> None:
+    """docs/service.md is not without calls: its textures are those that local commands write."""
+    if not shutil.which("curl"):
+        pytest.skip("the package curl is not installed")
+    for block in runnable_blocks(ROOT / "docs" / "service.md"):
+        RUNNERS[block.language](block.text.replace(SERVICE, service), tmp_path)
+    run_shell("nacreous tabulate lens.toml -o local && nacreous tabulate soap-bubble -o local", tmp_path)
+    for name in ("lens.exr", "soap-bubble.exr"):
+        assert (tmp_path / name).read_bytes() == (tmp_path / "local" / name).read_bytes(), name
 
 
 def test_the_tour_leaves_the_files_it_names(tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ NOT_PYTHON = {
     "nacreous/optics/presets/paper": "service/nacreous/optics/presets/paper/*.toml",
     "nacreous/opencl": "service/nacreous/opencl/*.json",
     "nacreous": "service/nacreous/py.typed",
+    "nacreous_client": "clients/python/nacreous_client/*",
 }
 """Folder in the wheel -> files of the checkout that it must hold."""
 
@@ -52,16 +53,17 @@ def names(wheel: Path) -> set[str]:
 
 @pytest.mark.parametrize("folder", NOT_PYTHON)
 def test_the_wheel_holds_what_is_not_python(folder: str, wheel: Path) -> None:
-    """Kernels, client files and data are in the wheel, where the package looks for them."""
-    expected = {f"{folder}/{file.name}" for file in ROOT.glob(NOT_PYTHON[folder])}
+    """Kernels, client files and data are in the wheel, where the package looks for them; so is the client."""
+    expected = {f"{folder}/{file.name}" for file in ROOT.glob(NOT_PYTHON[folder]) if file.is_file()}
     assert expected
     assert expected <= names(wheel)
 
 
-def test_the_wheel_holds_the_package_alone(wheel: Path) -> None:
-    """Neither tests nor documentation nor leftovers are installed."""
+def test_the_wheel_holds_the_packages_alone(wheel: Path) -> None:
+    """Neither tests nor documentation nor leftovers are installed, and the client once."""
     tops = {name.partition("/")[0] for name in names(wheel)}
-    assert {top for top in tops if not top.endswith(".dist-info")} == {"nacreous"}
+    assert {top for top in tops if not top.endswith(".dist-info")} == {"nacreous", "nacreous_client"}
+    assert not [name for name in names(wheel) if name.startswith("nacreous/clients/python/nacreous_client")]
     assert not [name for name in names(wheel) if "__pycache__" in name]
 
 

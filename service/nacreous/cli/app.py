@@ -13,13 +13,15 @@ from nacreous.cli.materials import materials
 from nacreous.cli.presets import presets
 from nacreous.cli.preview import preview
 from nacreous.cli.schema import schema
+from nacreous.cli.serve import serve
+from nacreous.cli.server import ServerAddress, choose_server
 from nacreous.cli.tabulate import tabulate
 from nacreous.cli.verify import verify
 from nacreous.errors import NacreousError
 
 __all__ = ["main"]
 
-_COMMANDS = (tabulate, preview, presets, schema, devices, doctor, verify)
+_COMMANDS = (tabulate, preview, presets, schema, devices, doctor, verify, serve)
 
 
 def main() -> None:
@@ -60,10 +62,13 @@ def _show_version(asked: bool) -> None:  # noqa: FBT001 - typer calls it with th
 
 
 def _options(
+    context: typer.Context,
     *,
-    version: Annotated[
+    server: ServerAddress = None,
+    version: Annotated[  # noqa: ARG001 - its callback has used it
         bool,
         typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version and stop."),
     ] = False,
 ) -> None:
     """Hold the options that belong to no command."""
+    choose_server(context, server)

@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from typer.exceptions import TyperException
 
+from nacreous.cli.server import RefusedError
 from nacreous.errors import BudgetError, NacreousError, SpecError, reason
 
 __all__ = ["FAILED", "INTERRUPTED", "NO_PLATFORM", "WRONG_INPUT", "exit_code", "report"]
@@ -28,6 +29,7 @@ _CODES: Mapping[type[BaseException], int] = MappingProxyType(
         KeyboardInterrupt: INTERRUPTED,
         SpecError: WRONG_INPUT,
         BudgetError: WRONG_INPUT,
+        RefusedError: WRONG_INPUT,
         NacreousError: FAILED,
         OSError: FAILED,
     }

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterable, Mapping
 
-__all__ = ["print_columns", "print_json_lines"]
+__all__ = ["Row", "print_columns", "print_json_lines"]
 
 Row = Mapping[str, object]
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from nacreous.cli.arguments import AsJson
+from nacreous.cli.server import server_of
 
 if TYPE_CHECKING:
     from nacreous.optics.catalogue import Listing
@@ -34,20 +35,30 @@ def _own(context: typer.Context) -> None:
 
 
 def search(
+    context: typer.Context,
     text: Annotated[list[str], typer.Argument(help="Words, all of which must occur.")],
     *,
     as_json: AsJson = False,
 ) -> None:
     """Find materials whose name, description or citation holds every word."""
     from nacreous.cli.listing import print_json_lines
-    from nacreous.optics.catalogue import search_materials
 
-    found = search_materials(" ".join(text))
+    found = _found(context, " ".join(text))
     if as_json:
         print_json_lines(map(asdict, found))
     else:
         _print(found)
         print(f"{len(found)} found")
+
+
+def _found(context: typer.Context, text: str) -> "list[Listing]":
+    if server := server_of(context):
+        from nacreous.cli.remote_listings import search_service
+
+        return search_service(server, text)
+    from nacreous.optics.catalogue import search_materials
+
+    return search_materials(text)
 
 
 def _print(listings: "list[Listing]") -> None:

@@ -4,11 +4,14 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-__all__ = ["progress"]
+__all__ = ["Observer", "progress"]
+
+Observer = Callable[[float], None]
+"""Is called with the fraction done."""
 
 
 @contextmanager
-def progress(label: str) -> Iterator[Callable[[float], None] | None]:
+def progress(label: str) -> Iterator[Observer | None]:
     """Yield what is to be called with the fraction done; None where nobody watches.
 
     The bar is on stderr, and gone at the end.

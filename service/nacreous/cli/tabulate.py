@@ -1,16 +1,19 @@
 """``nacreous tabulate``: from a spec to files."""
 
-import json
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+import typer
+
 from nacreous.cli.arguments import AsJson, Assignments, Formats, OutputFolder, SpecOrPreset
+from nacreous.cli.server import server_of
 from nacreous.formats.names import FormatName
 
 if TYPE_CHECKING:
+    from nacreous.cli.written import Written
     from nacreous.formats.registry import Format
     from nacreous.tables.spec import Spec
     from nacreous.tables.table import Table
@@ -19,6 +22,7 @@ __all__ = ["tabulate"]
 
 
 def tabulate(
+    context: typer.Context,
     spec: SpecOrPreset,
     assignments: Assignments = None,
     formats: Formats = None,
@@ -32,7 +36,8 @@ def tabulate(
     file is an EXR, the lookup texture for renderers.
     """
     from nacreous.cli.output import check_folder, file_stem
-    from nacreous.formats.registry import FORMATS, check_name
+    from nacreous.cli.written import record
+    from nacreous.formats.registry import FORMATS, check_name, parts_of
     from nacreous.tables.presets import load
 
     began = perf_counter()
@@ -40,35 +45,50 @@ def tabulate(
     chosen = [FORMATS[name] for name in dict.fromkeys(formats or [FormatName.EXR])]
     for each in chosen:
         check_name(each, Path(file_stem(spec) + each.suffix))
-    computed = list(_computed(load(spec, assignments or ()), chosen))  # all of them, before any is written
-    output.mkdir(parents=True, exist_ok=True)
+    film = load(spec, assignments or ())
+    parts_of(chosen, film)  # what a format cannot hold is refused before any is written
+    for written in _files(context, film, chosen, output / file_stem(spec)):
+        line = record(written, perf_counter() - began) if as_json else written.path
+        print(line, flush=True)
+
+
+def _files(
+    context: typer.Context, spec: "Spec", formats: "Sequence[Format]", stem: Path
+) -> "Iterator[Written]":
+    """Write the files, computed here or by a service, and yield each once it is there."""
+    server = server_of(context)
+    if server is None:
+        yield from _computed_here(spec, formats, stem)
+    else:
+        from nacreous.cli.remote_tables import fetched_files
+
+        yield from fetched_files(server, spec, formats, stem)
+
+
+def _computed_here(spec: "Spec", formats: "Sequence[Format]", stem: Path) -> "Iterator[Written]":
+    from nacreous.cli.written import Written, warning
+
+    computed = list(_tables(spec, formats))  # all of them, before any is written
+    stem.parent.mkdir(parents=True, exist_ok=True)
     for table, formats_of_it in computed:
-        _warn(table, formats_of_it)
-        for path, written_as in _written(table, formats_of_it, output / file_stem(spec)):
-            print(_record(table, path, written_as, perf_counter() - began) if as_json else path, flush=True)
+        if fault := warning(formats_of_it, table.certificate):
+            print(fault, file=sys.stderr)
+        for path, written_as in _written(table, formats_of_it, stem):
+            yield Written(path, written_as, table.id, table.certificate)
 
 
-def _computed(spec: "Spec", formats: "Sequence[Format]") -> "Iterator[tuple[Table, tuple[Format, ...]]]":
+def _tables(spec: "Spec", formats: "Sequence[Format]") -> "Iterator[tuple[Table, tuple[Format, ...]]]":
     """Yield one table for each sampling, and the formats that it is written in."""
     from nacreous.cli.progress import progress
+    from nacreous.cli.written import by_sampling
     from nacreous.formats.registry import parts_of
     from nacreous.tables.tabulate import tabulate_table
 
-    parts_of(formats, spec)  # what a format cannot hold is refused before any is written
-    for sampling in dict.fromkeys(chosen.sampling for chosen in formats):
-        alike = tuple(chosen for chosen in formats if chosen.sampling is sampling)
+    for alike in by_sampling(formats):
+        parts, sampling = parts_of(alike, spec), alike[0].sampling
         with progress("tabulating") as observer:
-            table = tabulate_table(spec, parts_of(alike, spec), sampling=sampling, observer=observer)
+            table = tabulate_table(spec, parts, sampling=sampling, observer=observer)
         yield table, alike
-
-
-def _warn(table: "Table", formats: "Sequence[Format]") -> None:
-    """Say on stderr where a format's own grid is too coarse; the certificate has the figures."""
-    from nacreous.tables.measured.certificate import shortfall
-
-    if fault := shortfall(table.certificate):
-        names = ", ".join(chosen.name for chosen in formats)
-        print(f"nacreous: {names}: {fault}", file=sys.stderr)
 
 
 def _written(table: "Table", formats: "Sequence[Format]", stem: Path) -> "Iterator[tuple[Path, Format]]":
@@ -78,18 +98,3 @@ def _written(table: "Table", formats: "Sequence[Format]", stem: Path) -> "Iterat
         files = chosen.write(table, stem.with_name(stem.name + chosen.suffix))
         yield from ((path, chosen) for path in files if path not in told)
         told.update(files)
-
-
-def _record(table: "Table", path: Path, written_as: "Format", seconds: float) -> str:
-    """Return what a program wants to know of a file, as one line of JSON."""
-    from nacreous.formats.verify import file_sha256
-
-    record = {
-        "path": str(path),
-        "format": written_as.name,
-        "id": table.id,
-        "sha256": file_sha256(path),
-        "seconds": round(seconds, 4),
-        "certificate": table.certificate,
-    }
-    return json.dumps(record, allow_nan=False)

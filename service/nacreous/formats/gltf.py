@@ -101,7 +101,7 @@ def _material(spec: Spec, film: Iridescence, *, transmits: bool) -> dict[str, An
     }
     base = _dielectric(film.base_f0) if transmits else {}
     return {
-        "name": spec.name or "film",
+        "name": "film",
         "pbrMetallicRoughness": {
             "baseColorFactor": [1.0, 1.0, 1.0, 1.0] if transmits else [*film.base_f0.tolist(), 1.0],
             "metallicFactor": 0.0 if transmits else 1.0,

@@ -20,6 +20,7 @@ __all__ = [
     "colour_facts",
     "coloured_names",
     "colours",
+    "is_of",
     "lookup_attributes",
     "lookup_files",
     "required",
@@ -51,11 +52,11 @@ def lookup_files(
     stem, end = _split(path.name, suffix)
     reflected, transmitted = LAYOUTS[table.spec.table.quantity].names
     files = {reflected: path, transmitted: path.with_name(f"{stem}.transmission{end}")}
-    obsolete = [file for name, file in files.items() if name not in names and _is_of(name, file, read)]
+    obsolete = [file for name, file in files.items() if name not in names and is_of(name, file, read)]
     return {name: files[name] for name in names}, tuple(obsolete)
 
 
-def _is_of(name: str, path: Path, read: Callable[[Path], Contents]) -> bool:
+def is_of(name: str, path: Path, read: Callable[[Path], Contents]) -> bool:
     """Tell whether a file is one of Nacreous's that holds the quantity `name`."""
     try:
         return path.is_file() and read(path).provenance.get("quantity") == name

@@ -19,7 +19,7 @@ document and the values of its textures: all of them belong together.
 """
 
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -41,7 +41,7 @@ from nacreous.tables.measured.surface import check_rgb
 from nacreous.tables.spec import Spec, surface_of
 from nacreous.tables.table import Table
 
-__all__ = ["QUANTITIES", "SUFFIX", "check", "read", "write"]
+__all__ = ["QUANTITIES", "SUFFIX", "check", "read", "rename_textures", "write"]
 
 SUFFIX = ".mtlx"
 QUANTITIES = frozenset({"fresnel"})
@@ -109,6 +109,43 @@ def _graph(table: Table, files: Mapping[str, Path], attributes: Mapping[str, str
     names = {side: file.name for side, file in files.items()}
     alphas = surface_of(table.spec).alphas or (MIN_ALPHA, MIN_ALPHA)
     return FilmGraph(names, table_atlas(table), alphas, attributes)
+
+
+def rename_textures(path: Path, textures: Sequence[Path]) -> None:
+    """Let a document name other files that hold the textures it was written with, as `write` would have.
+
+    Parameters
+    ----------
+    path : Path
+        The document.
+    textures : sequence of Path
+        That of R and, where there is one, that of T.
+
+    Raises
+    ------
+    FileFormatError
+        It is no such document, or has another number of textures.
+    """
+    root = _parsed(path)
+    named, files = _files(root), [texture.name for texture in textures]
+    if len(named) != len(files):
+        raise FileFormatError(f"expected a document of {len(files)} textures, got one of {len(named)}")
+    arrays: dict[str, NDArray[np.float32]] = {}
+    for texture in textures:
+        arrays |= exr.read(texture).arrays
+    text = path.read_text(encoding="utf-8")
+    for old, new in zip(named, files, strict=True):
+        text = text.replace(f"value={_quoted(old)}", f"value={_quoted(new)}")
+    seal = _checksum(ET.fromstring(text.encode()), arrays)  # noqa: S314 - parsed before
+    former = _attributes(root)[CHECKSUM]
+    path.write_text(
+        text.replace(f"{CHECKSUM}={_quoted(former)}", f"{CHECKSUM}={_quoted(seal)}"), encoding="utf-8"
+    )
+
+
+def _quoted(value: str) -> str:
+    """Return a value as it is written into a document."""
+    return ET.tostring(ET.Element("a", {"b": value}), encoding="unicode")[len("<a b=") : -len(" />")]
 
 
 # ---- reading -----------------------------------------------------------------------------------------------

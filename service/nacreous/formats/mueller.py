@@ -62,7 +62,7 @@ def write(table: Table, path: Path) -> tuple[Path, ...]:
     """Write `table` and return the file; raises `FileFormatError`."""
     angles = {name: table.values(name).astype(np.float32)[None] for name in ("phi_d", "theta_d", "theta_h")}
     fields: dict[str, NDArray[Any]] = {
-        "description": text(table.spec.name or "a film by Nacreous"),
+        "description": text("a film by Nacreous"),
         **angles,
         "wvls": table.values("wavelength_nm").astype(np.uint16),
         "M": required(table, "M"),

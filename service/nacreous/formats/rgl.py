@@ -80,7 +80,7 @@ def _write(
     table: Table, path: Path, values: Mapping[str, NDArray[Any]], provenance: Mapping[str, str]
 ) -> tuple[Path, ...]:
     fields: dict[str, NDArray[Any]] = {
-        "description": text(table.spec.name or "a film by Nacreous"),
+        "description": text("a film by Nacreous"),
         "jacobian": np.ones(1, np.uint8),
         **{name: _single(table, name) for name in ("phi_i", "theta_i")},
         **{name: required(table, name) for name in _FACETS},

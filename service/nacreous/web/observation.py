@@ -1,0 +1,129 @@
+"""The outermost layers: what a request came to is counted and logged, and every error is an answer."""
+
+import logging
+import secrets
+import time
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from nacreous.web.logs import log_request
+from nacreous.web.metrics import Metrics
+from nacreous.web.problems import problem_of
+
+__all__ = ["TEMPLATE", "HeadAsGet", "Observed", "Problems"]
+
+TEMPLATE = "nacreous.template"
+"""Key of the scope under which a layer that answers without the router leaves the template of the route."""
+
+_METHODS = frozenset({"GET", "HEAD", "POST", "DELETE", "OPTIONS", "PUT", "PATCH", "TRACE"})
+_SECURITY = [(b"x-content-type-options", b"nosniff"), (b"referrer-policy", b"no-referrer")]
+_CLIENT_CLOSED = 499
+"""nginx's number for a client that went away before the answer began; it is logged and never sent."""
+
+_logger = logging.getLogger("nacreous.web")
+
+
+class _Answer:
+    """What has been sent of one answer, with the headers that all of them have."""
+
+    def __init__(self, send: Send, request_id: str) -> None:
+        self._send, self._headers = send, [*_SECURITY, (b"x-request-id", request_id.encode())]
+        self.status, self.sent_bytes = _CLIENT_CLOSED, 0
+
+    async def send(self, message: Message) -> None:
+        if message["type"] == "http.response.start":
+            self.status = message["status"]
+            message["headers"] = [*message["headers"], *self._headers]
+        else:
+            self.sent_bytes += len(message.get("body", b""))
+        await self._send(message)
+
+
+class Observed:
+    """Counts and logs each request, and gives its answer an id and the headers that guard a browser."""
+
+    def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
+        self._app, self._metrics = app, metrics
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        began = time.perf_counter()
+        request_id = secrets.token_hex(8)
+        answer = _Answer(send, request_id)
+        scope["nacreous.id"] = request_id
+        try:
+            await self._app(scope, receive, answer.send)
+        finally:
+            seconds = time.perf_counter() - began
+            method = scope["method"] if scope["method"] in _METHODS else "other"
+            route = _template(scope)
+            self._metrics.observe(method, route, answer.status, seconds)
+            log_request(request_id, method, route, answer.status, seconds, answer.sent_bytes)
+
+
+def _template(scope: Scope) -> str:
+    """Return the template of the route that answered: what a client chose is part of no label."""
+    template = scope.get(TEMPLATE)
+    if template is None:
+        template = getattr(scope.get("route"), "path", "none")
+    return str(template).replace(":path", "")
+
+
+class Problems:
+    """Answers every error that the layers within raise with its problem."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on, and answer in its place where it fails before its answer has begun."""
+        began = False
+
+        async def watched(message: Message) -> None:
+            nonlocal began
+            began = True
+            await send(message)
+
+        try:
+            await self._app(scope, receive, watched)
+        except Exception as error:
+            if scope["type"] != "http" or began:
+                raise
+            problem = problem_of(error)
+            if problem.kind == "internal":
+                facts = {"id": scope.get("nacreous.id", "")}
+                _logger.exception("unforeseen error", extra={"facts": facts})
+            await problem.response()(scope, receive, send)
+
+
+class HeadAsGet:
+    """Answers HEAD as GET without the body, on every route; a range has no meaning there."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on."""
+        if scope["type"] != "http" or scope["method"] != "HEAD":
+            await self._app(scope, receive, send)
+            return
+        headers = [(name, value) for name, value in scope["headers"] if name != b"range"]
+        as_get = {**scope, "method": "GET", "headers": headers, "nacreous.head": True}
+        try:
+            await self._app(as_get, receive, _without_body(send))
+        finally:
+            for key in (TEMPLATE, "route"):
+                if key in as_get:
+                    scope[key] = as_get[key]
+
+
+def _without_body(send: Send) -> Send:
+    async def send_without_body(message: Message) -> None:
+        if message["type"] == "http.response.body":
+            message = {**message, "body": b""}
+        await send(message)
+
+    return send_without_body

@@ -1,0 +1,1 @@
+"""How fast the service answers, beside starlette alone in the same server: `python -m load`."""
