@@ -14,14 +14,16 @@ BIN := $(VENV)/bin
 export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 PIP_INSTALL := -m pip --disable-pip-version-check --no-input install --quiet
 
-.PHONY: help run test check bench docs clean
+.PHONY: help run serve test soak check bench docs clean
 .DELETE_ON_ERROR:
 
 help:
 	@echo 'make run     tabulate a preset to EXR and draw it, into out/'
+	@echo 'make serve   run the HTTP service on http://localhost:8000'
 	@echo 'make test    run all tests'
 	@echo 'make check   look at style, types and layers'
 	@echo 'make docs    run what the documentation shows, make its pictures anew'
+	@echo 'make soak    inject faults as often as the promises say, for an hour or so'
 	@echo 'make bench   measure against other programs, write docs/benchmarks.md'
 	@echo 'make clean   remove what the others made'
 
@@ -31,8 +33,14 @@ run: $(VENV)/.installed
 	@echo 'Picture of it:'
 	@$(BIN)/nacreous preview $(PRESET) -o out/$(subst /,-,$(PRESET)).png
 
-test: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(VENV)/.node $(BLENDER_VENV)/.bpy
+serve: $(VENV)/.installed
+	@$(BIN)/nacreous serve
+
+test: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(VENV)/.node $(VENV)/.tracing $(BLENDER_VENV)/.bpy
 	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
+
+soak: $(VENV)/.group-test $(VENV)/.tracing
+	NACREOUS_SOAK=1 $(BIN)/python -m pytest tests/faults tests/web
 
 check: $(VENV)/.group-check
 	$(BIN)/ruff check
@@ -84,6 +92,11 @@ $(VENV)/.web: $(VENV)/.made
 	@if $(call debian,command -v chromium && command -v glslangValidator && command -v spirv-cross, \
 	        chromium glslang-tools spirv-cross); then touch $@; \
 	    else echo 'The web and engine clients need the packages chromium, glslang-tools and spirv-cross' >&2; fi
+
+# What tests of the service look at processes, requests and units with.
+$(VENV)/.tracing: $(VENV)/.made
+	@if $(call debian,command -v strace && command -v curl && command -v systemd-analyze,strace curl systemd); then touch $@; \
+	    else echo 'Some tests of the service need the packages strace, curl and systemd' >&2; fi
 
 # Blender's module wants Python 3.11 and an older NumPy: an environment of its own, and what its window needs.
 $(BLENDER_VENV)/.bpy: $(BLENDER_VENV)/.made
