@@ -9,7 +9,8 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -22,47 +23,40 @@ READY_SECONDS = 120.0
 _LISTENING = '"event": "listening"'
 
 
-@dataclass
+@dataclass(frozen=True)
 class Served:
     """A running service.
 
     Parameters
     ----------
     process : Popen
-    lines : list of str
-        What it has logged so far.
-    url : str
-        Where it listens.
+    log : Path
+        Where it logs to: a file, so that nobody has to read along.
     """
 
-    process: subprocess.Popen[str]
-    lines: list[str] = field(default_factory=list)
-    url: str = ""
-    _reader: threading.Thread | None = None
+    process: subprocess.Popen[bytes]
+    log: Path
+
+    @property
+    def lines(self) -> list[str]:
+        """What it has logged so far."""
+        return self.log.read_text().splitlines()
+
+    @cached_property
+    def url(self) -> str:
+        """Where it listens, as it says once it does."""
+        end = time.monotonic() + READY_SECONDS
+        while not (found := [line for line in self.lines if _LISTENING in line and line.endswith("}")]):
+            assert self.process.poll() is None, self.log.read_text()
+            assert time.monotonic() < end
+            threading.Event().wait(0.02)
+        return str(json.loads(found[0])["url"])
 
     @property
     def address(self) -> tuple[str, int]:
         """Host and port."""
         parsed = httpx.URL(self.url)
         return parsed.host, parsed.port or 80
-
-    def read_log(self) -> None:
-        """Keep the log, and find in it where the service listens."""
-        assert self.process.stderr is not None
-        listening = threading.Event()
-
-        def read() -> None:
-            for line in self.process.stderr or ():
-                self.lines.append(line)
-                if _LISTENING in line:
-                    self.url = json.loads(line)["url"]
-                    listening.set()
-            listening.set()
-
-        self._reader = threading.Thread(target=read, daemon=True)
-        self._reader.start()
-        assert listening.wait(READY_SECONDS)
-        assert self.url, "".join(self.lines)
 
     def await_ready(self) -> None:
         """Wait until tables are computed."""
@@ -75,10 +69,7 @@ class Served:
     def stop(self, number: signal.Signals = signal.SIGTERM, within: float = 30.0) -> int:
         """Send a signal and return the exit code."""
         self.process.send_signal(number)
-        code = self.process.wait(within)
-        if self._reader is not None:
-            self._reader.join(within)
-        return code
+        return self.process.wait(within)
 
 
 @contextmanager
@@ -86,18 +77,12 @@ def serving(store: Path, **settings: Any) -> Iterator[Served]:  # noqa: ANN401 -
     """Run ``nacreous serve`` with these settings; it is killed at the end where it still runs."""
     given = {f"NACREOUS_{name.upper()}": str(value) for name, value in settings.items()}
     environment = {**os.environ, "NACREOUS_PORT": "0", "NACREOUS_STORE": str(store), **given}
-    process = subprocess.Popen(
-        [*PROGRAM, "serve"], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-    )
-    served = Served(process)
+    log = store.with_name(f"{store.name}.log")
+    with log.open("w") as file:
+        process = subprocess.Popen([*PROGRAM, "serve"], env=environment, stdout=file, stderr=file)
     try:
-        served.read_log()
-        yield served
+        yield Served(process, log)
     finally:
         if process.poll() is None:
             process.kill()
         process.wait()
-        if served._reader is not None:
-            served._reader.join()
-        if process.stderr is not None:
-            process.stderr.close()

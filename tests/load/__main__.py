@@ -49,7 +49,7 @@ def main() -> None:
 
 def print_hot(client: httpx.Client, folder: Path) -> None:
     """Compare a table in memory with the same bytes from starlette, in rounds that take turns."""
-    answer = client.post("/v1/tables", json=film(420, cos_theta=128, scales=384))
+    answer = client.post("/v1/tables", json=film(420, cos_theta=128, scales=200))
     url = str(client.base_url.join(answer.json()["links"]["exr"]))
     file = client.get(url)
     (folder / "table.exr").write_bytes(file.content)

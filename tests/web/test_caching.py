@@ -137,3 +137,19 @@ def test_the_compressed_form_is_the_same_each_time(app: RunningApp, table: Mappi
 
 async def _raw(answer: Any) -> bytes:  # noqa: ANN401 - httpx's answer
     return b"".join([chunk async for chunk in answer.aiter_raw()])
+
+
+def test_no_byte_of_a_body_is_handed_to_the_server_for_head(app: RunningApp, url: str) -> None:
+    """Servers drop one, and so do clients: what the application itself sends is empty."""
+    sent: list[dict[str, Any]] = []
+
+    async def receive() -> dict[str, Any]:
+        return {"type": "http.request", "body": b"", "more_body": False}
+
+    async def send(message: dict[str, Any]) -> None:
+        sent.append(message)
+
+    scope = {"type": "http", "method": "HEAD", "path": url, "query_string": b"", "headers": []}
+    app.run(app.app({**scope, "root_path": "", "http_version": "1.1", "scheme": "http"}, receive, send))
+    assert sent[0]["status"] == 200
+    assert [message["body"] for message in sent[1:]] == [b""]

@@ -56,4 +56,7 @@ def log_request(
         "ms": round(seconds * 1e3, 2),
         "bytes": sent_bytes,
     }
-    _LOGGER.info("request", extra={_FACTS: facts})
+    # Without looking for who calls, which `Logger.info` does and every request would pay for.
+    record = logging.LogRecord(_LOGGER.name, logging.INFO, __file__, 0, "request", None, None)
+    setattr(record, _FACTS, facts)
+    _LOGGER.handle(record)

@@ -6,6 +6,7 @@ exit code 0. A second signal waits no longer.
 """
 
 import asyncio
+import gc
 import logging
 import signal
 import socket
@@ -100,4 +101,6 @@ def serve(settings: Settings) -> None:
         host, port = listening.getsockname()[:2]
         url = f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
         _logger.info("listening", extra={"facts": {"url": url}})
-        server_of(settings).run([listening])
+        server = server_of(settings)
+        gc.freeze()  # what has been imported stays: nobody need look through it again and again
+        server.run([listening])
