@@ -17,9 +17,11 @@ from small_library import ended, opened, small_sweep
 class TellingEngine(InProcessEngine):
     """Writes the id of each table that it has computed."""
 
-    async def compute(self, work: Work, observer: Observer | None = None) -> Product:
+    async def compute(
+        self, work: Work, observer: Observer | None = None, deadline_s: float | None = None
+    ) -> Product:
         """Compute, and tell."""
-        product = await super().compute(work, observer)
+        product = await super().compute(work, observer, deadline_s)
         os.write(sys.stdout.fileno(), f"{product.id}\n".encode())
         return product
 

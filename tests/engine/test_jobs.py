@@ -309,10 +309,12 @@ class RefusingEngine(InProcessEngine):
         super().__init__()
         self.refused, self.has_refused = 0, asyncio.Event()
 
-    async def compute(self, work: Work, observer: Observer | None = None) -> Product:
+    async def compute(
+        self, work: Work, observer: Observer | None = None, deadline_s: float | None = None
+    ) -> Product:
         """Compute, or note that it cannot be."""
         try:
-            return await super().compute(work, observer)
+            return await super().compute(work, observer, deadline_s)
         except UnavailableError:
             self.refused += 1
             if self.refused == 4:

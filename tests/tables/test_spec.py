@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import numpy as np
 import pytest
 from hypothesis import given
@@ -342,6 +343,15 @@ def test_the_schema_describes_every_form() -> None:
     assert definitions["TableSpec"]["properties"]["cos_theta"]["oneOf"][1]["minItems"] == 2
     assert len(definitions["TableSpec"]["properties"]["theta_i"]["oneOf"]) == 4
     assert definitions["Surface"]["properties"]["masking"]["enum"] == ["v-cavity", "smith", "smith-separable"]
+
+
+def test_the_schema_has_the_bounds_of_json_schema() -> None:
+    """JSON Schema 2020-12, 6.2: a validator that is not ours refuses what is out of bounds."""
+    validator = jsonschema.Draft202012Validator(json_schema())
+    validator.check_schema(validator.schema)
+    wrong = {"stack": {**STACK, "substrate": {"n": 1.5, "k": -1.0}}}
+    assert validator.is_valid({"stack": STACK})
+    assert not validator.is_valid(wrong)
 
 
 def test_reading_a_spec_loads_nothing_heavy() -> None:

@@ -43,8 +43,10 @@ class Engine(Protocol):
         """Let what is being computed finish within the grace time, and free everything; refuse what waits."""
         ...
 
-    async def compute(self, work: Work, observer: Observer | None = None) -> Product:
-        """Return what comes of the work.
+    async def compute(
+        self, work: Work, observer: Observer | None = None, deadline_s: float | None = None
+    ) -> Product:
+        """Return what comes of the work, within `deadline_s` or, without one, the engine's own deadline.
 
         Cancelling one caller ends its waiting alone where the work has begun.
 
@@ -55,7 +57,7 @@ class Engine(Protocol):
         BusyError
             The queue is full.
         UnavailableError
-            The worker has been lost twice over this work, or the engine starts or stops.
+            The worker has been lost twice over this work, or the engine has failed or stops.
         DeadlineError
             It took longer than it may.
         """

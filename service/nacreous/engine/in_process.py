@@ -80,23 +80,26 @@ class InProcessEngine:
         timer.cancel()
         thread.shutdown()
 
-    async def compute(self, work: Work, observer: Observer | None = None) -> Product:
+    async def compute(
+        self, work: Work, observer: Observer | None = None, deadline_s: float | None = None
+    ) -> Product:
         """Return what comes of the work; the observer is called from the event loop. See `Engine.compute`."""
         if self._thread is None:
             raise self._unavailable()
         tell = _in_loop(observer)
-        return await self._turns.take(lambda: self._compute(work, tell))
+        within_s = deadline_s or self._deadline_s
+        return await self._turns.take(lambda: self._compute(work, tell, within_s))
 
-    async def _compute(self, work: Work, tell: Observer) -> Product:
+    async def _compute(self, work: Work, tell: Observer, within_s: float) -> Product:
         if self._thread is None:
             raise self._unavailable()
-        limit = time.monotonic() + self._deadline_s
+        limit = time.monotonic() + within_s
 
         def observe(fraction: float) -> None:
             if self._given_up.is_set():
                 raise self._unavailable()
             if time.monotonic() > limit:
-                raise DeadlineError(f"the table takes longer than {self._deadline_s:g} s")
+                raise DeadlineError(f"the table takes longer than {within_s:g} s")
             tell(fraction)
 
         product = await asyncio.wrap_future(self._thread.submit(compute, work, observe))

@@ -57,11 +57,14 @@ class JobLimits:
         Jobs that have not ended; one more is a `BusyError`.
     kept : int
         Manifests of ended jobs in the store; the oldest go.
+    deadline_s : float
+        For one table; nobody waits for it as for a request.
     """
 
     tables: int = MAX_TABLES
     waiting: int = 256
     kept: int = 1_000
+    deadline_s: float = 1_800.0
 
 
 class Jobs:
@@ -281,7 +284,7 @@ class Jobs:
         tries = 0
         while True:
             try:
-                return await self._library.keep(work, observer)
+                return await self._library.keep(work, observer, self._limits.deadline_s)
             except (BusyError, UnavailableError, DeviceError) as error:
                 tries += self._library.ready and not isinstance(error, BusyError)
                 if tries == _TRIES:
@@ -295,8 +298,8 @@ class Jobs:
         state = JobState.FAILED if failed else JobState.DONE
         changes: dict[str, Any] = {"state": state, "fraction": 1.0, "error": error}
         await self._write(active.document, replace(active.job, **changes))
-        self._end(active, **changes)
         await self._make_room()
+        self._end(active, **changes)
 
     def _end(self, active: ActiveJob, **changes: Any) -> None:  # noqa: ANN401 - fields of a job
         """Give a job its last state, once."""
@@ -312,8 +315,8 @@ class Jobs:
             active.in_hand.cancel()
 
     async def _make_room(self) -> None:
-        """Delete the manifests of the jobs that ended the longest ago."""
-        while len(self._manifests) > self._limits.kept:
+        """Delete the manifests of the jobs that ended the longest ago, so that one more may end."""
+        while len(self._manifests) >= self._limits.kept:
             job_id = self._manifests.popleft()
             if job_id not in self._active and job_id not in self._manifests:
                 self._ended.pop(job_id, None)

@@ -183,15 +183,24 @@ class Library:
         self._hot.put(key, entry)
         return Record(table_id, Spec.from_text(entry.payload, Syntax.JSON), entry.facts["certificate"])
 
-    async def keep(self, work: Work, observer: Observer | None = None) -> None:
-        """See to it that every file of a work is in the store.
+    async def holds(self, work: Work, suffix: str = "") -> bool:
+        """Tell whether a file of a work is there, and need not be computed; see `file`."""
+        await _identify(work)
+        key = file_key(work, suffix)
+        return self._hot.get(key) is not None or await asyncio.to_thread(self._is_stored, key)
+
+    async def keep(
+        self, work: Work, observer: Observer | None = None, deadline_s: float | None = None
+    ) -> None:
+        """See to it that every file of a work is in the store, within the engine's deadline or another.
 
         Raises what `file` raises, and `StoreError` where the files cannot be kept.
         """
         await _identify(work)
         if await asyncio.to_thread(self._is_kept, work):
             return
-        outcome = await self._works.share(file_key(work), partial(self._computed, work), observer)
+        computed = partial(self._computed, work, deadline_s=deadline_s)
+        outcome = await self._works.share(file_key(work), computed, observer)
         if outcome.fault is not None:
             raise outcome.fault
 
@@ -239,8 +248,8 @@ class Library:
         if own is not None and suffix not in own.facts["files"]:
             raise _no_companion(work, suffix)
 
-    async def _computed(self, work: Work, observer: Observer) -> _Outcome:
-        product = await self._engine.compute(work, observer)
+    async def _computed(self, work: Work, observer: Observer, deadline_s: float | None = None) -> _Outcome:
+        product = await self._engine.compute(work, observer, deadline_s)
         observer(1.0)
         entries = entries_of(work, product)
         fault = await asyncio.to_thread(self._kept, work, entries)
@@ -265,6 +274,13 @@ class Library:
         except StoreError as error:
             return error
         return None
+
+    def _is_stored(self, key: str) -> bool:
+        try:
+            return self._store.has(key)
+        except StoreError as error:
+            _log.warning("%s could not be looked for: %s", key, error)
+            return False
 
     def _read(self, key: str, table_id: str, work: Work | None = None) -> Entry | None:
         """Read an entry, in a thread, and use its table's record; write that of `work` where it is gone.

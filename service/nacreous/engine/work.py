@@ -104,6 +104,8 @@ def compute(work: Work, observer: Observer | None = None) -> Product:
     SpecError, BudgetError, DeviceError, NumericalError, FileFormatError
     """
     began = time.perf_counter()
+    if observer is not None:
+        observer(0.0)  # it has begun
     table = tabulate_table(
         work.spec, parts_of([work.target], work.spec), sampling=work.target.sampling, observer=observer
     )

@@ -101,36 +101,39 @@ class WorkerEngine:
             await asyncio.wait([self._supervision])
         await self._turns.idle()
 
-    async def compute(self, work: Work, observer: Observer | None = None) -> Product:
+    async def compute(
+        self, work: Work, observer: Observer | None = None, deadline_s: float | None = None
+    ) -> Product:
         """Return what comes of the work; the observer is called from the event loop. See `Engine.compute`."""
         self._check_taking()
         self._poison.check(work)
-        return await self._turns.take(lambda: self._attempts(work, observer))
+        within_s = deadline_s or self._settings.deadline_s
+        return await self._turns.take(lambda: self._attempts(work, observer, within_s))
 
     # ---- computing -----------------------------------------------------------------------------------------
 
-    async def _attempts(self, work: Work, observer: Observer | None) -> Product:
+    async def _attempts(self, work: Work, observer: Observer | None, within_s: float) -> Product:
         """Have the work done, by a second worker where the first is lost over it."""
         try:
-            return await self._attempt(work, observer)
+            return await self._attempt(work, observer, within_s)
         except (WorkerFaultError, WorkerLostError) as loss:
             _log.warning("table %s has cost its worker (%s) and is tried once more", work.id, loss)
         try:
-            return await self._attempt(work, observer)
+            return await self._attempt(work, observer, within_s)
         except WorkerFaultError as fault:
             raise fault.error from None
         except WorkerLostError:
             raise UnavailableError("the worker has been lost twice over this table", _RETRY_S) from None
 
-    async def _attempt(self, work: Work, observer: Observer | None) -> Product:
+    async def _attempt(self, work: Work, observer: Observer | None, within_s: float) -> Product:
         worker = await self._ready_worker()
         self._poison.check(work)
         try:
-            async with asyncio.timeout(self._settings.deadline_s):
+            async with asyncio.timeout(within_s):
                 product = await worker.compute(work, observer)
         except TimeoutError:
             self._discard(worker)
-            raise DeadlineError(f"the table takes longer than {self._settings.deadline_s:g} s") from None
+            raise DeadlineError(f"the table takes longer than {within_s:g} s") from None
         except (WorkerFaultError, WorkerLostError) as loss:
             self._poison.strike(work)
             self._discard(worker)

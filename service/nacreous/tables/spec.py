@@ -40,6 +40,7 @@ __all__ = [
     "json_schema",
     "roughness_values",
     "surface_of",
+    "with_bounds",
 ]
 
 FloatArray = NDArray[np.float64]
@@ -58,6 +59,8 @@ ColourScienceName = Annotated[str, Field(min_length=1, max_length=100)]
 
 LABELS = ("name", "description", "source")
 """The fields of a spec that only a person reads; they are part neither of a table's id nor of its files."""
+
+_BOUNDS = {"ge": "minimum", "le": "maximum", "gt": "exclusiveMinimum", "lt": "exclusiveMaximum"}
 
 _ROUNDING = 1e-9
 """Relative slack at the ends of the roughness, which a ratio and a root are computed for."""
@@ -239,4 +242,15 @@ def canonical_json(spec: Spec) -> str:
 
 def json_schema() -> dict[str, Any]:
     """Return the JSON Schema of a spec."""
-    return Spec.model_json_schema()
+    schema: dict[str, Any] = with_bounds(Spec.model_json_schema())
+    return schema
+
+
+def with_bounds(part: Any) -> Any:  # noqa: ANN401 - any part of a schema
+    """Return a schema whose bounds have JSON Schema's names; pydantic keeps its own before a validator."""
+    if isinstance(part, list):
+        return [with_bounds(entry) for entry in part]
+    if not isinstance(part, dict):
+        return part
+    numeric = part.get("type") in ("number", "integer")
+    return {_BOUNDS.get(name, name) if numeric else name: with_bounds(value) for name, value in part.items()}

@@ -18,7 +18,7 @@ __all__ = ["COMPRESSED", "SUFFIXES", "file_response", "format_of_suffix", "repre
 COMPRESSED = frozenset({FormatName.CSV, FormatName.MATERIALX, FormatName.GLTF})
 """Formats of text; all others are compressed already, or do not become smaller."""
 
-_COMPANIONS = (FormatName.EXR, FormatName.PNG)
+_COMPANIONS = (FormatName.EXR, FormatName.SPECTRAL_EXR, FormatName.PNG)
 _BY_SUFFIX = {entry.suffix: entry for entry in FORMATS.values()}
 _BY_SUFFIX |= {f"{TRANSMISSION}{FORMATS[name].suffix}": FORMATS[name] for name in _COMPANIONS}
 

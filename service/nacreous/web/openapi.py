@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from nacreous.engine.sweep import Sweep
 from nacreous.formats.names import FormatName
 from nacreous.tables.presets import preset_names
-from nacreous.tables.spec import Spec
+from nacreous.tables.spec import Spec, with_bounds
 from nacreous.web.answers import ProblemAnswer
 from nacreous.web.examples import SPEC_IN_TOML, SPECS, SWEEPS
 from nacreous.web.problems import MEDIA_TYPE
@@ -36,9 +36,6 @@ __all__ = [
 
 _REF = "#/components/schemas/{model}"
 HEX_ID = {"pattern": "^[0-9a-f]{64}$"}
-
-_SYNONYMS = {"ge": "minimum", "le": "maximum", "gt": "exclusiveMinimum", "lt": "exclusiveMaximum"}
-"""Bounds that pydantic leaves under its own name where a validator stands before them."""
 
 Extra = dict[str, Any]
 Responses = dict[int | str, dict[str, Any]]
@@ -154,19 +151,7 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
 def _components(model: type[BaseModel]) -> dict[str, Any]:
     schema = model.model_json_schema(ref_template=_REF)
     parts = schema.pop("$defs", {})
-    return {name: _with_bounds(part) for name, part in {**parts, model.__name__: schema}.items()}
-
-
-def _with_bounds(part: Any) -> Any:  # noqa: ANN401 - any part of a schema
-    """Return a schema whose bounds have the names that JSON Schema gives them."""
-    if isinstance(part, list):
-        return [_with_bounds(entry) for entry in part]
-    if not isinstance(part, dict):
-        return part
-    numeric = part.get("type") in ("number", "integer")
-    return {
-        _SYNONYMS.get(name, name) if numeric else name: _with_bounds(value) for name, value in part.items()
-    }
+    return {name: with_bounds(part) for name, part in {**parts, model.__name__: schema}.items()}
 
 
 def _sweep() -> dict[str, Any]:

@@ -117,7 +117,9 @@ def make_service(settings: Settings, engine: Engine) -> Service:
     """Return the service of these settings around an engine."""
     store = open_store(settings.store, settings.store_quota)
     library = Library(store, engine, settings.hot_bytes)
-    jobs = Jobs(library, store, JobLimits(tables=settings.job_tables))
+    jobs = Jobs(
+        library, store, JobLimits(tables=settings.job_tables, deadline_s=settings.job_deadline_seconds)
+    )
     service = Service(settings, store, engine, library, jobs, Metrics())
     service.metrics.registry.register(ServiceCollector(service))
     return service

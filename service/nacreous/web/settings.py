@@ -80,6 +80,7 @@ class Settings(BaseSettings):
         2, ge=0, description="Estimate over which `POST /v1/tables` answers 202 and makes a job."
     )
     hot_bytes: int = Field(_GIB // 4, ge=0, description="Bytes of files kept in memory.")
+    job_deadline_seconds: float = Field(1800, gt=0, description="Time that a table of a job may take.")
     job_tables: int = Field(10_000, ge=1, le=1_000_000, description="Tables of one job.")
     shutdown_seconds: float = Field(
         18, ge=1, le=600, description="Time from SIGTERM to the end; requests that run finish meanwhile."

@@ -88,9 +88,10 @@ async def preset_file(
     check_preset(stem)
     chosen = format_of_suffix(ending)
     work, seconds = preset_work(stem, chosen.name, scale)
-    if seconds > service.settings.deadline_seconds:
+    wanted = "" if ending == chosen.suffix else ending
+    if seconds > service.settings.deadline_seconds and not await service.library.holds(work, wanted):
         return await job_of(service, work)
-    entry = await service.library.file(work, "" if ending == chosen.suffix else ending)
+    entry = await service.library.file(work, wanted)
     return await file_response(representation(entry, work.name, ending, REVALIDATE), chosen, request.scope)
 
 

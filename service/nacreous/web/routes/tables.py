@@ -112,7 +112,8 @@ async def table_file(
     if service.library.hot(known, ending) is None:
         work = Work((await service.library.record(known)).spec, chosen.name)
         check_size(work)
-        if estimated_seconds(work) > service.settings.deadline_seconds:
+        too_long = estimated_seconds(work) > service.settings.deadline_seconds
+        if too_long and not await service.library.holds(work, ending):
             return await job_of(service, work)
     entry = await service.library.table_file(known, ending)
     return await file_response(
