@@ -18,7 +18,7 @@ Result = TypeVar("Result")
 WORKERS = Path(__file__).parent / "faults" / "workers"
 """Workers that have a fault: each serves as the real one does, and computes as its name says."""
 
-PATIENCE_S = 120.0
+PATIENCE_S = scale(120, 3600)
 """Beyond which a test is told that it hangs; no promise is measured with it."""
 
 

@@ -149,15 +149,23 @@ def checked_intensities(
     """
     computed = film_intensities(device, problem, precision, observer=observer)
     for name, values in computed.items():
-        check_range(name, values)
-        np.clip(values, 0, 1, out=values)
+        least, most = check_range(name, values)
+        if least < 0 or most > 1:
+            np.clip(values, 0, 1, out=values)
     return computed
 
 
-def check_range(name: str, values: NDArray[np.floating]) -> None:
-    """Raise `NumericalError` for values that are not finite, before a clamp can hide them, or no ratios."""
+def check_range(name: str, values: NDArray[np.floating]) -> tuple[float, float]:
+    """Return the least and the largest of the values, which are ratios.
+
+    Raises
+    ------
+    NumericalError
+        A value is not finite, which a clamp would hide, or is no ratio.
+    """
     least, most = float(values.min()), float(values.max())
     if not (least >= LEAST and most <= MOST):  # False for NaN, too
         bad = int(np.count_nonzero(~np.isfinite(values)))
         message = f"{name} lies in [{least:.9g}, {most:.9g}] with {bad} values that are not finite"
         raise NumericalError(f"{message}; it must lie in [0, 1]. Please report this stack.")
+    return least, most

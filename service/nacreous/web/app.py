@@ -11,6 +11,7 @@ from starlette.middleware.cors import CORSMiddleware
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Match
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 import nacreous
 from nacreous.engine.engine import Engine
@@ -52,7 +53,7 @@ def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
     """
     byte_budget()
     service = make_service(settings, engine or worker_engine(settings))
-    app = FastAPI(
+    app = _Service(
         title="Nacreous",
         version=nacreous.__version__,
         description=_DESCRIPTION,
@@ -65,7 +66,8 @@ def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
         app.router.routes.extend(router.routes)  # one list: what a path answers to is looked up in it
     app.add_exception_handler(HTTPException, _http_problem)
     app.add_exception_handler(RequestValidationError, _validation_problem)
-    _add_layers(app, service)
+    app.add_middleware(Problems)  # within what FastAPI would answer 500 with
+    app.state.layers = _layers(app, service)
     use_openapi(app)
     return app
 
@@ -80,24 +82,38 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await service.stop()
 
 
-def _add_layers(app: FastAPI, service: Service) -> None:
-    """Put the layers around the routes, the innermost first."""
+class _Service(FastAPI):
+    """FastAPI with layers around all of it: a file in memory is answered before its own are entered."""
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request through the layers; the life of the app goes its own way."""
+        if scope["type"] == "http":
+            await self.state.layers(scope, receive, send)
+        else:
+            await self.within(scope, receive, send)
+
+    async def within(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer by the routes."""
+        await super().__call__(scope, receive, send)
+
+
+def _layers(app: _Service, service: Service) -> ASGIApp:
+    """Return the routes with the layers around them, put on from the innermost."""
     settings = service.settings
-    app.add_middleware(HotFiles, library=service.library, cache_control=service.cache_control)
-    app.add_middleware(HeadAsGet)
-    app.add_middleware(Limits, service=service)
+    layers: ASGIApp = HotFiles(app.within, service.library, service.cache_control)
+    layers = Limits(HeadAsGet(layers), service)
     if settings.keys:
-        app.add_middleware(Keys, keys=settings.keys)
-    app.add_middleware(Problems)
+        layers = Keys(layers, settings.keys)
+    layers = Problems(layers)
     if settings.cors_origins:
-        app.add_middleware(
-            CORSMiddleware,
+        layers = CORSMiddleware(
+            layers,
             allow_origins=settings.cors_origins,
             allow_methods=["GET", "HEAD", "POST", "DELETE"],
             allow_headers=["Authorization", "Content-Type", "If-None-Match", "Range", "If-Range"],
             expose_headers=["ETag", "Location", "Retry-After", "Content-Disposition", "X-Request-Id"],
         )
-    app.add_middleware(Observed, metrics=service.metrics)
+    return Observed(layers, service.metrics)
 
 
 async def _http_problem(request: Request, error: Exception) -> Response:

@@ -34,7 +34,7 @@ class HotFiles:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer, or pass the request on."""
-        answer = self._answer(scope) if scope["type"] == "http" and scope["method"] == "GET" else None
+        answer = self._answer(scope) if scope["method"] == "GET" else None
         if answer is None:
             await self._app(scope, receive, send)
         else:

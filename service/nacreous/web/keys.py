@@ -24,7 +24,7 @@ class Keys:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, or raise `ProblemError` 401."""
-        if scope["type"] == "http" and scope["path"] not in OPEN_PATHS and not self._known(scope):
+        if scope["path"] not in OPEN_PATHS and not self._known(scope):
             headers = {"WWW-Authenticate": _CHALLENGE}
             detail = "expected the header Authorization: Bearer with a key of this service"
             raise ProblemError(HTTPStatus.UNAUTHORIZED, "key", detail, headers=headers)

@@ -21,12 +21,15 @@ class Limits:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, or raise `ProblemError` 431 or 503."""
-        if scope["type"] != "http" or scope["path"] in OPEN_PATHS:
+        if scope["path"] in OPEN_PATHS:
             await self._app(scope, receive, send)
             return
         self._check(scope)
-        with self._service.request():
+        self._service.request_begins()
+        try:
             await self._app(scope, receive, send)
+        finally:
+            self._service.request_ends()
 
     def _check(self, scope: Scope) -> None:
         settings = self._service.settings

@@ -1,15 +1,20 @@
 """Logs as one line of JSON each: what happened, and never a header, a key, a body or a raw path."""
 
+import asyncio
 import json
 import logging
 import logging.config
+import time
 from datetime import UTC, datetime
+from functools import lru_cache
+from typing import Any, TextIO
 
-__all__ = ["JsonFormatter", "configure", "log_request"]
+__all__ = ["JsonFormatter", "RequestRecord", "TogetherHandler", "configure", "log_request"]
 
 _LOGGER = logging.getLogger("nacreous.web")
 _FACTS = "facts"
 """The attribute of a record that holds further fields of its line."""
+_TOGETHER_S = 0.02
 
 
 class JsonFormatter(logging.Formatter):
@@ -18,7 +23,7 @@ class JsonFormatter(logging.Formatter):
     def format(self, record: logging.LogRecord) -> str:
         """Return the line; a traceback is one field of it."""
         line = {
-            "time": datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds"),
+            "time": f"{_second(int(record.created))}.{int(record.created % 1 * 1e3):03d}+00:00",
             "level": record.levelname.lower(),
             "logger": record.name,
             "event": record.getMessage(),
@@ -29,6 +34,56 @@ class JsonFormatter(logging.Formatter):
         return json.dumps(line)
 
 
+@lru_cache(maxsize=2)
+def _second(seconds: int) -> str:
+    return datetime.fromtimestamp(seconds, UTC).strftime("%Y-%m-%dT%H:%M:%S")
+
+
+class TogetherHandler(logging.StreamHandler[TextIO]):
+    """Writes what is logged within 20 ms of an event loop together; warnings, and other threads', at once."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._lines: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep the line, and see to it that it is written soon."""
+        try:
+            self._lines.append(self.format(record))
+        except Exception:  # noqa: BLE001 - logging's own way to say that a line cannot be made
+            self.handleError(record)
+            return
+        loop = asyncio._get_running_loop()  # which raises nothing where there is none
+        if loop is None or record.levelno > logging.INFO:
+            self.flush()
+        elif len(self._lines) == 1:
+            loop.call_later(_TOGETHER_S, self.flush)
+
+    def flush(self) -> None:
+        """Write what has been kept."""
+        self.acquire()
+        try:
+            lines, self._lines = self._lines, []
+            if lines:
+                self.stream.write("\n".join(lines) + "\n")
+                self.stream.flush()
+        finally:
+            self.release()
+
+
+class RequestRecord(logging.LogRecord):
+    """A request, without all that a record finds out of its caller and of its thread: every request pays."""
+
+    name, msg, args = _LOGGER.name, "request", None
+    levelname, levelno = "INFO", logging.INFO
+    pathname, filename, module, lineno = __file__, "logs.py", "logs", 0
+    exc_info = exc_text = stack_info = None
+
+    def __init__(self, facts: dict[str, Any]) -> None:
+        self.facts = facts
+        self.created = time.time()
+
+
 def configure(level: str) -> None:
     """Send every log of this process to stderr in this form, uvicorn's included."""
     logging.config.dictConfig(
@@ -36,7 +91,7 @@ def configure(level: str) -> None:
             "version": 1,
             "disable_existing_loggers": False,
             "formatters": {"json": {"()": JsonFormatter}},
-            "handlers": {"stderr": {"class": "logging.StreamHandler", "formatter": "json"}},
+            "handlers": {"stderr": {"()": TogetherHandler, "formatter": "json"}},
             "root": {"handlers": ["stderr"], "level": level.upper()},
         }
     )
@@ -56,7 +111,4 @@ def log_request(
         "ms": round(seconds * 1e3, 2),
         "bytes": sent_bytes,
     }
-    # Without looking for who calls, which `Logger.info` does and every request would pay for.
-    record = logging.LogRecord(_LOGGER.name, logging.INFO, __file__, 0, "request", None, None)
-    setattr(record, _FACTS, facts)
-    _LOGGER.handle(record)
+    _LOGGER.handle(RequestRecord(facts))

@@ -1,5 +1,6 @@
 """The outermost layers: what a request came to is counted and logged, and every error is an answer."""
 
+import itertools
 import logging
 import secrets
 import time
@@ -15,6 +16,9 @@ __all__ = ["TEMPLATE", "HeadAsGet", "Observed", "Problems"]
 TEMPLATE = "nacreous.template"
 """Key of the scope under which a layer that answers without the router leaves the template of the route."""
 
+_ANSWER = "nacreous.answer"
+"""Key of the scope under which the outermost layer leaves what has been sent of the answer."""
+
 _METHODS = frozenset({"GET", "HEAD", "POST", "DELETE", "OPTIONS", "PUT", "PATCH", "TRACE"})
 _SECURITY = [(b"x-content-type-options", b"nosniff"), (b"referrer-policy", b"no-referrer")]
 _CLIENT_CLOSED = 499
@@ -27,13 +31,17 @@ class _Answer:
     """What has been sent of one answer, with the headers that all of them have."""
 
     def __init__(self, send: Send, request_id: str) -> None:
-        self._send, self._headers = send, [*_SECURITY, (b"x-request-id", request_id.encode())]
+        self._send, self.request_id = send, request_id
         self.status, self.sent_bytes = _CLIENT_CLOSED, 0
 
     async def send(self, message: Message) -> None:
         if message["type"] == "http.response.start":
             self.status = message["status"]
-            message["headers"] = [*message["headers"], *self._headers]
+            message["headers"] = [
+                *message["headers"],
+                *_SECURITY,
+                (b"x-request-id", self.request_id.encode()),
+            ]
         else:
             self.sent_bytes += len(message.get("body", b""))
         await self._send(message)
@@ -44,16 +52,14 @@ class Observed:
 
     def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
         self._app, self._metrics = app, metrics
+        self._start, self._numbers = secrets.token_hex(4), itertools.count()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on."""
-        if scope["type"] != "http":
-            await self._app(scope, receive, send)
-            return
         began = time.perf_counter()
-        request_id = secrets.token_hex(8)
+        request_id = f"{self._start}{next(self._numbers):08x}"
         answer = _Answer(send, request_id)
-        scope["nacreous.id"] = request_id
+        scope[_ANSWER] = answer
         try:
             await self._app(scope, receive, answer.send)
         finally:
@@ -80,21 +86,15 @@ class Problems:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, and answer in its place where it fails before its answer has begun."""
-        began = False
-
-        async def watched(message: Message) -> None:
-            nonlocal began
-            began = True
-            await send(message)
-
         try:
-            await self._app(scope, receive, watched)
+            await self._app(scope, receive, send)
         except Exception as error:
-            if scope["type"] != "http" or began:
+            answer: _Answer = scope[_ANSWER]
+            if answer.status != _CLIENT_CLOSED:
                 raise
             problem = problem_of(error)
             if problem.kind == "internal":
-                facts = {"id": scope.get("nacreous.id", "")}
+                facts = {"id": answer.request_id}
                 _logger.exception("unforeseen error", extra={"facts": facts})
             await problem.response()(scope, receive, send)
 
@@ -107,7 +107,7 @@ class HeadAsGet:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on."""
-        if scope["type"] != "http" or scope["method"] != "HEAD":
+        if scope["method"] != "HEAD":
             await self._app(scope, receive, send)
             return
         headers = [(name, value) for name, value in scope["headers"] if name != b"range"]

@@ -1,8 +1,7 @@
 """What one running service is made of."""
 
 import asyncio
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from starlette.requests import Request
@@ -81,16 +80,15 @@ class Service:
         """Requests that are being answered, probes aside."""
         return self._running
 
-    @contextmanager
-    def request(self) -> Iterator[None]:
-        """Count a request while it is being answered."""
+    def request_begins(self) -> None:
+        """Count a request until `request_ends`."""
         self._running += 1
-        try:
-            yield
-        finally:
-            self._running -= 1
-            if not self._running:
-                self._idle.set()
+
+    def request_ends(self) -> None:
+        """Count one less, and tell who waits for the last."""
+        self._running -= 1
+        if not self._running:
+            self._idle.set()
 
     async def requests_done(self, within_seconds: float) -> None:
         """Wait until no request is being answered, or the time is over."""

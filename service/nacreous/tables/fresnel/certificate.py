@@ -37,7 +37,7 @@ GRAZING = 0.02
 surface sends 4e-4 of its light, a film between equal media has resonances as narrow as one likes."""
 _ALL_SPECTRAL_CELLS, _SPREAD_SPECTRAL_CELLS = 250_000, (8, 64, 32)
 """So many cells are all compared; of more, so many over thickness scale, angle and wavelength."""
-_ALL_COLOUR_NUMBERS, _SPREAD_COLOUR_CELLS = 8_000_000, (32, 128)
+_ALL_COLOUR_NUMBERS, _SPREAD_COLOUR_CELLS = 1_000_000, (32, 128)
 """Cells whose exact colours take so many spectral values are all compared; else so many over either axis."""
 _MOST_GRAZING_CELLS = 8
 _MOST_NUMBERS = 4_000_000
@@ -203,8 +203,9 @@ def _exact_colours(
 
 def _block_colours(solver: FilmSolver, grid: Grid, colouring: Colouring) -> FloatArray:
     exact = solver.exact_intensities(grid)
-    spectra = {
-        Side.REFLECTION: (exact["R_s"] + exact["R_p"]) / 2,
-        Side.TRANSMISSION: (exact["T_s"] + exact["T_p"]) / 2,
+    of_each = colouring.weights.T / 2  # (L, 3), for either polarisation
+    colours = {
+        Side.REFLECTION: exact["R_s"] @ of_each + exact["R_p"] @ of_each,
+        Side.TRANSMISSION: exact["T_s"] @ of_each + exact["T_p"] @ of_each,
     }
-    return np.stack([spectra[side] @ colouring.weights.T for side in solver.sides])
+    return np.stack([colours[side] for side in solver.sides])
