@@ -1,5 +1,7 @@
 """Measure the service beside starlette alone, and print the ratios: `python -m load`, tests on the path."""
 
+import asyncio
+import itertools
 import statistics
 import subprocess
 import sys
@@ -18,6 +20,7 @@ from served import serving
 
 ROUNDS, ROUND_SECONDS = 7, 0.8
 COLD_TABLES, PROBES = 60, 400
+QUEUE, CLIENTS, OVERLOAD_SECONDS = 16, 160, 8.0
 PLAIN = [sys.executable, "-m", "load.plain_app"]
 
 
@@ -45,6 +48,9 @@ def main() -> None:
             print_hot(client, folder)
             print_cold(client)
             print_probes(client, served.url)
+        with serving(folder / "overloaded", queue_length=QUEUE) as served:
+            served.await_ready()
+            print_overload(served.url)
 
 
 def print_hot(client: httpx.Client, folder: Path) -> None:
@@ -128,6 +134,33 @@ def print_probes(client: httpx.Client, url: str) -> None:
     ordered = sorted(milliseconds)
     print(f"/healthz while the worker is busy: p50 {statistics.median(ordered):.1f} ms,", end=" ")
     print(f"p99 {ordered[int(len(ordered) * 0.99)]:.1f} ms   (target 100)")
+
+
+def print_overload(url: str) -> None:
+    """Compare what is answered when ten times as many ask as the queue holds with what one asks in a row."""
+    alone, _ = asyncio.run(answered(url, 1, 500))
+    goodput, refused = asyncio.run(answered(url, CLIENTS, 501))
+    print(f"cold tables a second: one client {alone:.1f}, {CLIENTS} clients {goodput:.1f}", end=" ")
+    print(f"with {refused:.0f} refusals a second: goodput {goodput / alone:.2f}   (target 0.8)")
+
+
+async def answered(url: str, clients: int, first_nm: float) -> tuple[float, float]:
+    """Return tables and refusals a second, for so many clients that ask again as soon as they are told to."""
+    statuses: list[int] = []
+    numbers = itertools.count()
+    end = time.perf_counter() + OVERLOAD_SECONDS
+
+    async def ask(client: httpx.AsyncClient) -> None:
+        while time.perf_counter() < end:
+            answer = await client.post("/v1/tables", json=film(first_nm + next(numbers) / 4096))
+            statuses.append(answer.status_code)
+            if answer.status_code == 429:
+                await asyncio.sleep(float(answer.headers["retry-after"]))
+
+    limits = httpx.Limits(max_connections=clients)
+    async with httpx.AsyncClient(base_url=url, timeout=60, limits=limits) as client:
+        await asyncio.gather(*(ask(client) for _ in range(clients)))
+    return statuses.count(201) / OVERLOAD_SECONDS, statuses.count(429) / OVERLOAD_SECONDS
 
 
 if __name__ == "__main__":
