@@ -3,6 +3,7 @@
 import asyncio
 import json
 import logging
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -140,6 +141,17 @@ def test_an_unforeseen_error_says_nothing_of_its_inside(
 def test_browsers_are_told_not_to_guess(app: RunningApp, path: str) -> None:
     """Every answer has nosniff, also where it is a problem."""
     assert app.get(path).headers["x-content-type-options"] == "nosniff"
+
+
+def test_the_documentation_loads_nothing_from_elsewhere(app: RunningApp) -> None:
+    """Every script, style and picture of /docs is the service's own."""
+    page = app.get("/docs")
+    assert page.status_code == 200
+    loaded = re.findall(r'(?:src|href)="([^"]*)"', page.text)
+    assert len(loaded) >= 3
+    for address in loaded:
+        assert address.startswith("/")
+        assert app.get(address).status_code == 200
 
 
 def test_the_page_lists_every_preset(app: RunningApp) -> None:

@@ -25,6 +25,7 @@ from nacreous.web.observation import HeadAsGet, Observed, Problems
 from nacreous.web.openapi import use_openapi
 from nacreous.web.problems import Problem
 from nacreous.web.routes import jobs, materials, operations, page, presets, tables
+from nacreous.web.routes.docs import docs_routes
 from nacreous.web.service import Service, make_service
 from nacreous.web.settings import Settings
 
@@ -58,12 +59,14 @@ def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
         version=nacreous.__version__,
         description=_DESCRIPTION,
         lifespan=_lifespan,
+        docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
     )
     app.state.service = service
     for router in _ROUTERS:
         app.router.routes.extend(router.routes)  # one list: what a path answers to is looked up in it
+    app.router.routes.extend(docs_routes(app.openapi_url or ""))
     app.add_exception_handler(HTTPException, _http_problem)
     app.add_exception_handler(RequestValidationError, _validation_problem)
     app.add_middleware(Problems)  # within what FastAPI would answer 500 with
