@@ -73,7 +73,7 @@ class Served:
 
 
 @contextmanager
-def serving(store: Path, **settings: Any) -> Iterator[Served]:  # noqa: ANN401 - values of settings
+def serving(store: Path, /, **settings: Any) -> Iterator[Served]:  # noqa: ANN401 - values of settings
     """Run ``nacreous serve`` with these settings; it is killed at the end where it still runs."""
     given = {f"NACREOUS_{name.upper()}": str(value) for name, value in settings.items()}
     environment = {**os.environ, "NACREOUS_PORT": "0", "NACREOUS_STORE": str(store), **given}

@@ -13,7 +13,7 @@ from nacreous.store.keys import check_key, check_prefix
 from nacreous.store.objects import Objects
 from nacreous.store.remote import RemoteObjects
 
-__all__ = ["Store", "open_store"]
+__all__ = ["Store", "is_folder", "open_store"]
 
 _LOCAL = (None, "file", "local")
 """What a URL of a local folder begins with."""
@@ -108,6 +108,11 @@ class Store:
         return self._objects.size_bytes()
 
 
+def is_folder(url: str) -> bool:
+    """Tell whether a store's URL is a folder of this machine, which may have a quota."""
+    return split_protocol(url)[0] in _LOCAL
+
+
 def open_store(url: str, quota_bytes: int | None = None) -> Store:
     """Return the store at a place; nothing is written yet.
 
@@ -134,8 +139,8 @@ def open_store(url: str, quota_bytes: int | None = None) -> Store:
     """
     if not url:
         raise StoreError("expected a folder or a URL for the store, got an empty name")
-    protocol, path = split_protocol(url)
-    if protocol in _LOCAL:
+    _, path = split_protocol(url)
+    if is_folder(url):
         return Store(FolderObjects(Path(path).expanduser(), quota_bytes))
     if quota_bytes is not None:
         raise StoreError(

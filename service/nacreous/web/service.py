@@ -113,7 +113,7 @@ class Service:
 
 def make_service(settings: Settings, engine: Engine) -> Service:
     """Return the service of these settings around an engine."""
-    store = open_store(settings.store, settings.store_quota)
+    store = open_store(settings.store, settings.quota_bytes)
     library = Library(store, engine, settings.hot_bytes)
     jobs = Jobs(
         library, store, JobLimits(tables=settings.job_tables, deadline_s=settings.job_deadline_seconds)

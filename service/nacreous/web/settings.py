@@ -6,11 +6,13 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, SecretStr
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
+from nacreous.store.store import is_folder
 from nacreous.tables.spec_document import MAX_BYTES
 
 __all__ = ["Settings"]
 
 _GIB = 2**30
+_FOLDER_QUOTA = 10 * _GIB
 
 
 def _default_store() -> str:
@@ -45,8 +47,11 @@ class Settings(BaseSettings):
         default_factory=_default_store,
         description="Folder or fsspec URL, such as s3://bucket/prefix, of finished tables.",
     )
-    store_quota: int = Field(
-        10 * _GIB, ge=2**20, description="Bytes that the store may hold; the least used are removed first."
+    store_quota: int | None = Field(
+        None,
+        ge=2**20,
+        description="Bytes that a folder may hold, 10 GiB without it; the least used are removed first. "
+        "A bucket has rules of its own.",
     )
     api_keys: _Keys = Field((), description="Bearer keys, with commas between; without one, anybody may ask.")
     cors_origins: _Words = Field(
@@ -88,6 +93,13 @@ class Settings(BaseSettings):
     log_level: Literal["debug", "info", "warning", "error"] = Field(
         "info", description="Least severity that is logged; requests are logged at info."
     )
+
+    @property
+    def quota_bytes(self) -> int | None:
+        """Quota of the store: one that was set is for the store to refuse where it cannot keep it."""
+        if self.store_quota is None and is_folder(self.store):
+            return _FOLDER_QUOTA
+        return self.store_quota
 
     @property
     def keys(self) -> tuple[bytes, ...]:
