@@ -9,6 +9,7 @@ __all__ = [
     "DeadlineError",
     "DeviceError",
     "FileFormatError",
+    "LaterError",
     "MissingError",
     "NacreousError",
     "NumericalError",
@@ -85,8 +86,8 @@ class StoreError(NacreousError):
     """The store cannot be read or written; what is in it is as it was."""
 
 
-class BusyError(NacreousError):
-    """Too much is waiting already; nothing has been begun.
+class LaterError(NacreousError):
+    """What was asked for cannot be had now, and could be later.
 
     Parameters
     ----------
@@ -100,19 +101,12 @@ class BusyError(NacreousError):
         super().__init__(message)
 
 
-class UnavailableError(NacreousError):
-    """The engine cannot compute this just now: it starts, has lost its worker twice, or is stopping.
+class BusyError(LaterError):
+    """Too much is waiting already; nothing has been begun."""
 
-    Parameters
-    ----------
-    message : str
-    retry_after_s : float
-        When to ask again.
-    """
 
-    def __init__(self, message: str, retry_after_s: float) -> None:
-        self.retry_after_s = retry_after_s
-        super().__init__(message)
+class UnavailableError(LaterError):
+    """The engine cannot compute this just now: it starts, has lost its worker twice, or is stopping."""
 
 
 class DeadlineError(NacreousError):

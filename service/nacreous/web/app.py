@@ -54,7 +54,7 @@ def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
     """
     byte_budget()
     service = make_service(settings, engine or worker_engine(settings))
-    app = _Service(
+    app = _Layered(
         title="Nacreous",
         version=nacreous.__version__,
         description=_DESCRIPTION,
@@ -85,7 +85,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await service.stop()
 
 
-class _Service(FastAPI):
+class _Layered(FastAPI):
     """FastAPI with layers around all of it: a file in memory is answered before its own are entered."""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -100,7 +100,7 @@ class _Service(FastAPI):
         await super().__call__(scope, receive, send)
 
 
-def _layers(app: _Service, service: Service) -> ASGIApp:
+def _layers(app: _Layered, service: Service) -> ASGIApp:
     """Return the routes with the layers around them, put on from the innermost."""
     settings = service.settings
     layers: ASGIApp = HotFiles(app.within, service.library, service.cache_control)
