@@ -49,9 +49,7 @@ def test_each_key_opens(guarded: RunningApp, key: str) -> None:
         {"cookie": f"key={KEYS[0]}"},
     ],
 )
-@pytest.mark.parametrize(
-    "path", ["/v1/presets", f"/v1/tables/{'a' * 64}.exr", "/metrics", "/docs", "/nothing"]
-)
+@pytest.mark.parametrize("path", ["/v1/presets", f"/v1/tables/{'a' * 64}.exr", "/metrics", "/nothing"])
 def test_nothing_else_does(guarded: RunningApp, headers: dict[str, str], path: str) -> None:
     """401 with a challenge (RFC 6750, section 3), whether the path exists or not."""
     answer = guarded.get(path, headers=headers)
@@ -71,7 +69,7 @@ def test_two_authorizations_are_none(guarded: RunningApp) -> None:
     assert guarded.get("/v1/presets", headers=headers).status_code == 401
 
 
-@pytest.mark.parametrize("path", ["/healthz", "/readyz", "/"])
+@pytest.mark.parametrize("path", ["/healthz", "/readyz", "/", "/docs", "/openapi.json"])
 def test_probes_and_the_page_are_open(guarded: RunningApp, path: str) -> None:
     """Load balancers have no key, and the page shows nothing of what is stored."""
     assert guarded.get(path).status_code == 200

@@ -140,6 +140,7 @@ class JobTable:
 
     id: str
     links: Mapping[str, str]
+    spec: int
 
 
 @dataclass(frozen=True)
@@ -200,7 +201,9 @@ class Job:
             error=str(document.get("error", "")),
             created=str(document.get("created", "")),
             formats=tuple(map(str, document.get("formats", ()))),
-            tables=tuple(JobTable(each["id"], _links(each)) for each in document.get("tables", ())),
+            tables=tuple(
+                JobTable(each["id"], _links(each), int(each["spec"])) for each in document.get("tables", ())
+            ),
         )
 
 

@@ -43,5 +43,8 @@ def _settings(given: dict[str, str | int]) -> "Settings":
     except ValidationError as error:
         wrong = spec_error(error)
         name, *rest = wrong.field.split(".")
+        if name == "api_keys":  # what was given is a secret, right or wrong
+            expected = "keys of 16 to 512 characters, with commas between"
+            raise SpecError("NACREOUS_API_KEYS", expected, "something else", "unset it for no key") from None
         named = f"--{name}" if name in given else f"NACREOUS_{name.upper()}"
         raise SpecError(".".join([named, *rest]), wrong.expected, wrong.got, wrong.remedy) from None

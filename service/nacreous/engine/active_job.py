@@ -68,6 +68,7 @@ class ActiveJob:
         self.become(
             done=self.job.done + 1,
             tables=(*self.job.tables, works[0].id),
+            specs=(*self.job.specs, self.next - 1),
             files=(*self.job.files, *(work.id + work.target.suffix for work in works)),
             fraction=self.next / self.job.total,
         )

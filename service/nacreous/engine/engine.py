@@ -39,6 +39,10 @@ class Engine(Protocol):
         """Begin to make the engine ready, and return at once; `state` says what became of it."""
         ...
 
+    def drain(self) -> None:
+        """Take no more work and refuse what waits; what is in hand goes on until `stop`."""
+        ...
+
     async def stop(self) -> None:
         """Let what is being computed finish within the grace time, and free everything; refuse what waits."""
         ...

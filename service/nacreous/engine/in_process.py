@@ -68,10 +68,14 @@ class InProcessEngine:
         opened = asyncio.wrap_future(self._thread.submit(_device_fault))
         opened.add_done_callback(self._opened)
 
-    async def stop(self) -> None:
-        """Let the work in hand finish within the grace time; what waits is refused at once."""
+    def drain(self) -> None:
+        """Take no more work and refuse what waits; what is in hand goes on until `stop`."""
         self.state = _STOPPED
         self._turns.refuse_waiting(self._unavailable)
+
+    async def stop(self) -> None:
+        """Let the work in hand finish within the grace time; what waits is refused at once."""
+        self.drain()
         if self._thread is None:
             return
         thread, self._thread = self._thread, None
@@ -88,7 +92,7 @@ class InProcessEngine:
             raise self._unavailable()
         tell = _in_loop(observer)
         within_s = deadline_s or self._deadline_s
-        return await self._turns.take(lambda: self._compute(work, tell, within_s))
+        return await self._turns.take(lambda: self._compute(work, tell, within_s), within_s)
 
     async def _compute(self, work: Work, tell: Observer, within_s: float) -> Product:
         if self._thread is None:

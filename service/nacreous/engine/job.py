@@ -59,6 +59,8 @@ class Job:
         Names of the formats; none stands for the default format of each table.
     tables : tuple of str
         Ids of the tables that are finished, in the order of the sweep.
+    specs : tuple of int
+        Index of each of them in the sweep: those that could not be made are passed over.
     files : tuple of str
         Names of their files, one a format, such as ``"ab12….exr"``.
     fraction : float
@@ -76,6 +78,7 @@ class Job:
     failures: tuple[Failure, ...] = ()
     formats: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
+    specs: tuple[int, ...] = ()
     files: tuple[str, ...] = ()
     fraction: float = 0.0
     error: str = ""
@@ -111,7 +114,7 @@ class Manifest:
         try:
             content = json.loads(entry.payload)
             job = content["job"]
-            for name in ("formats", "tables", "files"):
+            for name in ("formats", "tables", "specs", "files"):
                 job[name] = tuple(job[name])
             job["failures"] = tuple(Failure(**failure) for failure in job["failures"])
             job["state"] = JobState(job["state"])

@@ -44,17 +44,21 @@ class Turns:
         """How many wait."""
         return len(self._waiting)
 
-    async def take(self, work: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
-        """Wait for a turn, and return what comes of `work`.
+    async def take(self, work: Callable[[], Coroutine[Any, Any, Result]], within_s: float) -> Result:
+        """Wait for a turn, `within_s` at most, and return what comes of `work`.
 
         Where the caller is cancelled before its turn, its place is given up; later, its work goes on.
 
         Raises
         ------
         BusyError
-            Too many wait already.
+            Too many wait already, or the turn does not come.
         """
-        await self._turn()
+        try:
+            async with asyncio.timeout(within_s):
+                await self._turn()
+        except TimeoutError:
+            raise BusyError("what is computed just now takes very long", self._retry_after_s()) from None
         task = asyncio.create_task(self._timed(work))
         self._tasks.add(task)
         task.add_done_callback(self._end_turn)

@@ -89,10 +89,14 @@ class WorkerEngine:
         self._worker = None
         self._supervision = asyncio.create_task(self._supervise())
 
-    async def stop(self) -> None:
-        """Let the work in hand finish within the grace time, and end the worker; what waits is refused."""
+    def drain(self) -> None:
+        """Take no more work and refuse what waits; what is in hand goes on until `stop`."""
         self._become(_STOPPED)
         self._turns.refuse_waiting(self._unavailable)
+
+    async def stop(self) -> None:
+        """Let the work in hand finish within the grace time, and end the worker; what waits is refused."""
+        self.drain()
         with suppress(TimeoutError):
             async with asyncio.timeout(self._settings.grace_s):
                 await self._turns.idle()
@@ -108,7 +112,7 @@ class WorkerEngine:
         self._check_taking()
         self._poison.check(work)
         within_s = deadline_s or self._settings.deadline_s
-        return await self._turns.take(lambda: self._attempts(work, observer, within_s))
+        return await self._turns.take(lambda: self._attempts(work, observer, within_s), within_s)
 
     # ---- computing -----------------------------------------------------------------------------------------
 
@@ -132,6 +136,7 @@ class WorkerEngine:
             async with asyncio.timeout(within_s):
                 product = await worker.compute(work, observer)
         except TimeoutError:
+            self._poison.strike(work)
             self._discard(worker)
             raise DeadlineError(f"the table takes longer than {within_s:g} s") from None
         except (WorkerFaultError, WorkerLostError) as loss:

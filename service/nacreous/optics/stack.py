@@ -115,6 +115,14 @@ LayerOrGroup = Annotated[
 ]
 
 
+def _not_too_many(layers: object) -> object:
+    """Refuse more entries than there may be layers before any is looked at."""
+    if isinstance(layers, list | tuple) and len(layers) > MAX_LAYERS:
+        remedy = "write a periodic part as a group with repeat"
+        raise refusal(f"1 to {MAX_LAYERS} layers", f"{len(layers)} layers", remedy)
+    return layers
+
+
 class Stack(StrictModel):
     """Layers between an incident medium, which must not absorb, and a substrate.
 
@@ -127,7 +135,7 @@ class Stack(StrictModel):
 
     incident: Material
     substrate: Material
-    layers: Annotated[tuple[LayerOrGroup, ...], AsTuple]
+    layers: Annotated[tuple[LayerOrGroup, ...], AsTuple, BeforeValidator(_not_too_many)]
 
     @field_validator("layers")
     @classmethod

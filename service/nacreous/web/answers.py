@@ -106,10 +106,20 @@ class JobProgress(_Answer):
     links: Links
 
 
+class JobTable(_Answer):
+    """A finished table of a job."""
+
+    spec: int = Field(
+        description="Its index in the sweep: the last of the paths, in their order, varies fastest."
+    )
+    id: str
+    links: Links
+
+
 class JobAnswer(JobProgress):
     """A job and its finished tables, one page of them."""
 
-    tables: list[TableLinks]
+    tables: list[JobTable]
 
 
 class JobAccepted(_Answer):

@@ -35,6 +35,11 @@ _DESCRIPTION = """\
 Tabulated BSDFs of thin-film interference: a spec becomes a table, and a table becomes files that renderers
 load. Errors are problem+json (RFC 9457). Every GET is answered to HEAD as well."""
 
+_EXPOSED = (
+    *("ETag", "Location", "Retry-After", "X-Request-Id"),
+    *("Content-Disposition", "Content-Range", "Accept-Ranges"),
+)
+
 _ROUTERS = (tables.router, presets.router, materials.router, jobs.router, operations.router, page.router)
 
 
@@ -114,7 +119,7 @@ def _layers(app: _Layered, service: Service) -> ASGIApp:
             allow_origins=settings.cors_origins,
             allow_methods=["GET", "HEAD", "POST", "DELETE"],
             allow_headers=["Authorization", "Content-Type", "If-None-Match", "Range", "If-Range"],
-            expose_headers=["ETag", "Location", "Retry-After", "Content-Disposition", "X-Request-Id"],
+            expose_headers=[*_EXPOSED],
         )
     return Observed(layers, service.metrics)
 

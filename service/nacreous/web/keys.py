@@ -13,6 +13,9 @@ __all__ = ["OPEN_PATHS", "Keys"]
 OPEN_PATHS = frozenset({"/", "/healthz", "/readyz"})
 """Paths that need no key: what a load balancer asks, and a page that says nothing of what is stored."""
 
+_DOCUMENTATION = ("/docs", "/openapi.json")
+"""What a browser opens without a key; it says nothing of what is stored."""
+
 _CHALLENGE = 'Bearer realm="nacreous"'
 
 
@@ -24,7 +27,8 @@ class Keys:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, or raise `ProblemError` 401."""
-        if scope["path"] not in OPEN_PATHS and not self._known(scope):
+        path = scope["path"]
+        if path not in OPEN_PATHS and not path.startswith(_DOCUMENTATION) and not self._known(scope):
             headers = {"WWW-Authenticate": _CHALLENGE}
             detail = "expected the header Authorization: Bearer with a key of this service"
             raise ProblemError(HTTPStatus.UNAUTHORIZED, "key", detail, headers=headers)

@@ -6,13 +6,21 @@ from urllib.parse import quote
 
 from nacreous.engine.jobs import Job
 from nacreous.errors import SpecError
+from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS, Format, check_holds
+from nacreous.optics.stack import sample_stack
+from nacreous.tables.axes import wavelength_values_nm
+from nacreous.tables.solver import TRANSMITTING_K
 from nacreous.tables.spec import Spec
 
 __all__ = ["TRANSMISSION", "holding_formats", "job_links", "preset_links", "table_links"]
 
 TRANSMISSION = ".transmission"
 """What the name of a companion has before its suffix: the transmitted part of a picture."""
+
+
+_COMPANIONS = frozenset({FormatName.EXR.value, FormatName.SPECTRAL_EXR.value, FormatName.PNG.value})
+"""Formats that have the transmitted part in a file of its own."""
 
 
 def holding_formats(spec: Spec) -> Iterator[Format]:
@@ -27,7 +35,18 @@ def holding_formats(spec: Spec) -> Iterator[Format]:
 
 @lru_cache(maxsize=1024)
 def _files(spec: Spec) -> tuple[tuple[str, str], ...]:
-    return tuple((entry.name.value, entry.suffix) for entry in holding_formats(spec))
+    files = [(entry.name.value, entry.suffix) for entry in holding_formats(spec)]
+    if _transmits(spec):
+        files += [(f"{name}-transmission", TRANSMISSION + end) for name, end in files if name in _COMPANIONS]
+    return tuple(files)
+
+
+def _transmits(spec: Spec) -> bool:
+    """Tell whether pictures of a film have a companion for what it transmits."""
+    if spec.table.quantity != "fresnel":
+        return False
+    index = sample_stack(spec.stack, wavelength_values_nm(spec.table.wavelength_nm)).index
+    return bool(index[-1].imag.max() < TRANSMITTING_K)
 
 
 def table_links(table_id: str, spec: Spec) -> dict[str, str]:

@@ -86,6 +86,7 @@ class RequestRecord(logging.LogRecord):
 
 def configure(level: str) -> None:
     """Send every log of this process to stderr in this form, uvicorn's included."""
+    logging.captureWarnings(capture=True)
     logging.config.dictConfig(
         {
             "version": 1,

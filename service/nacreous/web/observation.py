@@ -5,6 +5,7 @@ import logging
 import secrets
 import time
 
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from nacreous.web.logs import log_request
@@ -88,6 +89,8 @@ class Problems:
         """Pass the request on, and answer in its place where it fails before its answer has begun."""
         try:
             await self._app(scope, receive, send)
+        except ClientDisconnect:
+            return  # nobody is there to be answered
         except Exception as error:
             answer: _Answer = scope[_ANSWER]
             if answer.status != _CLIENT_CLOSED:

@@ -68,6 +68,7 @@ class GracefulServer(Server):
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Wait for the requests that run, with the port open, and close it then."""
         _logger.info("stopping")
+        await self._service.drain()
         await self._service.requests_done(
             self._service.settings.shutdown_seconds - GRACE_SECONDS - _CLOSING_SECONDS
         )

@@ -103,6 +103,12 @@ class Service:
         await self.engine.start()
         await self.jobs.start()
 
+    async def drain(self) -> None:
+        """Begin nothing more: requests whose table has not been begun are told to come again."""
+        self._stopping.set()
+        await self.jobs.stop()
+        self.engine.drain()
+
     async def stop(self) -> None:
         """Finish what is being computed, within the engine's grace time, and free everything."""
         self._stopping.set()

@@ -1,17 +1,20 @@
 """What a service is told by its environment: one field a setting, ``NACREOUS_`` and its name in capitals."""
 
+import re
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, SecretStr
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
+from nacreous.optics.value import refusal, shown
 from nacreous.store.store import is_folder
 from nacreous.tables.spec_document import MAX_BYTES
 
 __all__ = ["Settings"]
 
 _GIB = 2**30
+_ORIGIN = re.compile(r"https?://[^/\s]+")
 _FOLDER_QUOTA = 10 * _GIB
 
 
@@ -26,14 +29,29 @@ def _words(value: object) -> object:
     return tuple(filter(None, map(str.strip, value.split(",")))) if isinstance(value, str) else value
 
 
+def _keys(value: object) -> object:
+    """Read keys; a variable that is set and holds none would leave the service open by mistake."""
+    words = _words(value)
+    if isinstance(value, str) and value and not words:
+        raise ValueError("a key, or nothing at all")
+    return words
+
+
+def _origins(origins: tuple[str, ...]) -> tuple[str, ...]:
+    for origin in origins:
+        if origin != "*" and not _ORIGIN.fullmatch(origin):
+            raise refusal("origins as browsers send them, such as https://a.example, or *", shown(origin))
+    return origins
+
+
 def _long_enough(keys: tuple[SecretStr, ...]) -> tuple[SecretStr, ...]:
     if any(not 16 <= len(key.get_secret_value()) <= 512 for key in keys):
         raise ValueError("each key has 16 to 512 characters")
     return keys
 
 
-_Words = Annotated[tuple[str, ...], NoDecode, BeforeValidator(_words)]
-_Keys = Annotated[tuple[SecretStr, ...], NoDecode, BeforeValidator(_words), AfterValidator(_long_enough)]
+_Origins = Annotated[tuple[str, ...], NoDecode, BeforeValidator(_words), AfterValidator(_origins)]
+_Keys = Annotated[tuple[SecretStr, ...], NoDecode, BeforeValidator(_keys), AfterValidator(_long_enough)]
 
 
 class Settings(BaseSettings):
@@ -54,7 +72,7 @@ class Settings(BaseSettings):
         "A bucket has rules of its own.",
     )
     api_keys: _Keys = Field((), description="Bearer keys, with commas between; without one, anybody may ask.")
-    cors_origins: _Words = Field(
+    cors_origins: _Origins = Field(
         (), description="Origins whose pages may ask, with commas between, or *; none without it."
     )
     max_body: int = Field(

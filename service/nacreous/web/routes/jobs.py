@@ -14,7 +14,7 @@ from starlette.responses import Response, StreamingResponse
 from nacreous.engine.jobs import Job
 from nacreous.engine.sweep import Sweep
 from nacreous.tables.spec_document import Document
-from nacreous.web.answers import FailureAnswer, JobAnswer, JobProgress, TableLinks, document, json_response
+from nacreous.web.answers import FailureAnswer, JobAnswer, JobProgress, JobTable, document, json_response
 from nacreous.web.bodies import read_document
 from nacreous.web.files import format_of_suffix, split_file_name
 from nacreous.web.ids import checked_id
@@ -148,9 +148,12 @@ def _progress(found: Job) -> JobProgress:
 
 def job_answer(found: Job, offset: int = 0, limit: int = _PAGE) -> JobAnswer:
     """Return a job as it is answered, with a page of its finished tables."""
-    shown = found.tables[offset : offset + limit]
+    page = slice(offset, offset + limit)
     links = _links_of(found.files)
-    tables = [TableLinks(id=table_id, links=links[table_id]) for table_id in shown]
+    tables = [
+        JobTable(spec=spec, id=table_id, links=links[table_id])
+        for spec, table_id in zip(found.specs[page], found.tables[page], strict=True)
+    ]
     return JobAnswer(**_fields(found), tables=tables)
 
 

@@ -16,6 +16,7 @@ from nacreous.formats.registry import FORMATS
 from nacreous.tables.spec import Spec
 from nacreous.web.answers import JobAccepted, TableAdded, TableAnswer, document, json_response
 from nacreous.web.bodies import read_document
+from nacreous.web.colours import check_colour
 from nacreous.web.files import SUFFIXES, file_response, format_of_suffix, representation, split_file_name
 from nacreous.web.hot_files import TABLE_FILE
 from nacreous.web.ids import checked_id
@@ -56,6 +57,7 @@ async def add_table(request: Request) -> Response:
     spec = Spec.from_document(await read_document(request, service.settings))
     work = Work(spec, default_format(spec))
     check_size(work)
+    check_colour(spec)
     if estimated_seconds(work) > service.settings.synchronous_seconds and not await _is_known(service, work):
         return await job_of(service, work)
     added = await service.library.add(spec)
