@@ -69,6 +69,9 @@ PHYSICS: dict[str, tuple[str | bytes, int]] = {
     "an axis of one point": (table('"cos_theta": [0.5]'), 422),
     "mu above 1": (table('"cos_theta": [0, 1.5]'), 422),
     "mu below 0": (table('"cos_theta": [-0.5, 1]'), 422),
+    "70,000 layers that are none": (film(", ".join(['{"x": 1}'] * 70_000)), 422),
+    "an unknown illuminant": (film(rest=', "colour": {"illuminant": "Q"}'), 422),
+    "an unknown observer": (film(rest=', "colour": {"observer": "nobody"}'), 422),
     "over the byte budget": (
         table('"cos_theta": 65536, "thickness_scale": {"start": 0.5, "stop": 1, "count": 65536}'),
         413,

@@ -1,5 +1,7 @@
 """What needs a real process and real sockets: curl, signals, slow clients and too many of them."""
 
+import asyncio
+import os
 import shutil
 import socket
 import subprocess
@@ -244,6 +246,57 @@ def test_events_end_with_the_service(tmp_path: Path, film: Mapping[str, Any]) ->
     with serving(tmp_path / "store") as again, httpx.Client(base_url=again.url, timeout=60) as client:
         assert client.get(links["self"]).json()["state"] in {"queued", "running"}
         assert client.request("DELETE", links["self"]).json()["state"] == "cancelled"
+
+
+def test_keys_that_are_refused_are_not_shown() -> None:
+    """A key beside a wrong one is still a secret, and stderr is kept in journals."""
+    environment = {**os.environ, "NACREOUS_API_KEYS": "averygoodlongsecretkey1234,short"}
+    program = [*PROGRAM, "serve"]
+    done = subprocess.run(program, env=environment, capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == 2
+    assert "NACREOUS_API_KEYS" in done.stderr
+    assert "secret" not in done.stderr
+
+
+def test_sigterm_refuses_what_waits(tmp_path: Path, film: Mapping[str, Any]) -> None:
+    """A table that has not been begun is told to come again: 503, no half-made answer, and exit code 0."""
+    specs = [
+        {
+            **film,
+            "table": {"cos_theta": 600 + number, "thickness_scale": {"start": 0.1, "stop": 9, "count": 600}},
+        }
+        for number in range(6)
+    ]
+
+    async def asked(running: Served) -> list[httpx.Response]:
+        async with httpx.AsyncClient(base_url=running.url, timeout=60) as client:
+            posts = [asyncio.create_task(client.post("/v1/tables", json=spec)) for spec in specs]
+            while "nacreous_engine_queued 5.0" not in (await client.get("/metrics")).text:
+                await asyncio.sleep(0)
+            running.process.terminate()
+            return await asyncio.gather(*posts)
+
+    with serving(tmp_path / "store", synchronous_seconds=60) as running:
+        running.await_ready()
+        answers = asyncio.run(asked(running))
+        assert running.process.wait(20) == 0
+    assert [answer.status_code for answer in answers].count(201) == 1
+    refused = [answer for answer in answers if answer.status_code == 503]
+    assert len(refused) == 5
+    assert all(answer.headers["retry-after"] for answer in refused)
+    assert "Traceback" not in running.log.read_text()
+
+
+def test_a_client_that_goes_away_is_no_fault_of_the_service(served: Served) -> None:
+    """A body that ends early is counted as 499, and logged as a request and nothing more."""
+    with socket.create_connection(served.address) as client:
+        client.sendall(b"POST /v1/tables HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n")
+        client.sendall(b"Content-Length: 100\r\n\r\n{}")
+    with httpx.Client(base_url=served.url) as probe:
+        end = time.monotonic() + 30
+        while 'route="/v1/tables",status="499"' not in probe.get("/metrics").text:
+            assert time.monotonic() < end
+    assert "ClientDisconnect" not in served.log.read_text()
 
 
 @pytest.mark.parametrize(

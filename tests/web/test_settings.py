@@ -56,6 +56,8 @@ def test_keys_are_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     [
         ("port", "70000"),
         ("api_keys", "short"),
+        ("api_keys", " , "),
+        ("cors_origins", "https://a.example/"),
         ("log_level", "loud"),
         ("max_body", "1"),
         ("concurrency", "0"),

@@ -136,7 +136,7 @@ class Failure:
 
 @dataclass(frozen=True)
 class JobTable:
-    """A table of a job, with the paths of its files by format."""
+    """A table of a job: the paths of its files by format, and the index of its spec in the sweep."""
 
     id: str
     links: Mapping[str, str]

@@ -33,7 +33,7 @@ def _events(*jobs: dict[str, Any], end: str = "\n") -> bytes:
 def test_a_job_is_waited_for_over_streams_that_are_cut(server: AnsweringServer, call: Call, end: str) -> None:
     """Proxies end long answers; server-sent events end their lines as they like (HTML standard, 9.2.5)."""
     stream = _events(_job("queued", 0), _job("running", 1), end=end)
-    table = {"id": ID, "links": {"exr": f"/v1/tables/{ID}.exr"}}
+    table = {"spec": 0, "id": ID, "links": {"exr": f"/v1/tables/{ID}.exr"}}
     server.script("POST /v1/jobs", json_answer(_job("queued", 0), 202))
     server.script(
         "GET /v1/jobs/j/events",
@@ -78,7 +78,7 @@ def test_a_file_of_some_time_is_waited_for(server: AnsweringServer, call: Call, 
 
 def test_a_job_of_many_tables_is_read_by_the_page(server: AnsweringServer, call: Call) -> None:
     """All tables are in the job that is returned, in the order of the sweep."""
-    tables = [{"id": f"{at:064x}", "links": {}} for at in range(1001)]
+    tables = [{"spec": at, "id": f"{at:064x}", "links": {}} for at in range(1001)]
     server.script("GET /v1/jobs/j?limit=1000", json_answer(_job("done", 2, tables=tables[:1000])))
     server.script("GET /v1/jobs/j?offset=1000&limit=1000", json_answer(_job("done", 2, tables=tables[1000:])))
     assert [table.id for table in call(server.address, "job", "j").tables] == [each["id"] for each in tables]

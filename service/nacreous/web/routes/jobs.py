@@ -16,6 +16,7 @@ from nacreous.engine.sweep import Sweep
 from nacreous.tables.spec_document import Document
 from nacreous.web.answers import FailureAnswer, JobAnswer, JobProgress, JobTable, document, json_response
 from nacreous.web.bodies import read_document
+from nacreous.web.colours import check_colour
 from nacreous.web.files import format_of_suffix, split_file_name
 from nacreous.web.ids import checked_id
 from nacreous.web.links import job_links
@@ -63,10 +64,11 @@ async def add_job(request: Request) -> Response:
 
 
 def _sweep(document_of_sweep: Document, limit: int) -> Sweep:
-    """Return the sweep of a document, whose first table is within the byte budget."""
+    """Return the sweep of a document, whose first table is within the byte budget and has colours we know."""
     sweep = Sweep.from_document(document_of_sweep, limit)
     for work in sweep[0]:
         check_size(work)
+        check_colour(work.spec)
     return sweep
 
 
