@@ -12,6 +12,7 @@ from nacreous.formats.registry import write
 from nacreous.tables.spec import LABELS
 from nacreous.tables.tabulate import tabulate_table
 from small_library import Rooms, opened, small_spec, small_work, together
+from worker_engines import long_work
 
 COMPANION = ".transmission.exr"
 
@@ -286,7 +287,9 @@ def test_one_of_200_cold_requests_that_stays_is_answered(tmp_path: Path, begun: 
     async def test() -> None:
         async with opened(tmp_path) as rooms:
             at_work = asyncio.Event()
-            asked = [asyncio.create_task(rooms.library.file(small_work())) for _ in range(200)]
+            work = small_work()
+            assert work.id  # known from here on, so that all of them ask in the same turn of the loop
+            asked = [asyncio.create_task(rooms.library.file(work)) for _ in range(200)]
             await _all_asked(asked)
             if begun:
                 watching = asyncio.create_task(rooms.library.keep(small_work(), lambda _: at_work.set()))
@@ -323,14 +326,16 @@ def test_what_all_have_left_is_finished_and_kept(tmp_path: Path) -> None:
 
 def test_what_waits_for_its_turn_is_given_up_with_its_last_caller(tmp_path: Path) -> None:
     """Requests that were left do not fill the engine's queue."""
-    first, left = small_work(), small_work(name="anodised-titanium")
+    first, left = long_work(), small_work(name="anodised-titanium")
 
     async def test() -> None:
         async with opened(tmp_path) as rooms:
             at_work = asyncio.Event()
             keeping = asyncio.create_task(rooms.library.keep(first, lambda _: at_work.set()))
-            asked = asyncio.create_task(rooms.library.file(left))
             await at_work.wait()
+            asked = asyncio.create_task(rooms.library.file(left))
+            while not rooms.engine.queued:
+                await asyncio.sleep(0)
             asked.cancel()
             await together(keeping, asked)
             await rooms.library.settle()
