@@ -16,7 +16,7 @@ from bench.ours import film_problem
 from bench.stack import BenchStack, bench_stack
 from nacreous.opencl.device import Device, open_device
 from nacreous.opencl.film import film_intensities
-from nacreous.opencl.film_colour import Side, film_colour
+from nacreous.opencl.film_colour import Side, film_colours
 from nacreous.opencl.film_problem import FilmProblem, Segment
 from nacreous.opencl.precision import Precision
 
@@ -86,7 +86,7 @@ def _colour_figure(device: Device) -> Figure:
     )
     weights = np.ones((3, 401)) / 401
     seconds = _median_seconds(
-        lambda: film_colour(device, problem, weights, Side.REFLECTION, Precision.SINGLE)
+        lambda: film_colours(device, problem, weights, (Side.REFLECTION,), Precision.SINGLE)
     )
     return Figure("colour texture, 512 x 512 from 401 wavelengths", f"{seconds:.3f} s", "0.25 s")
 

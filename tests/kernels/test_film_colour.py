@@ -6,7 +6,7 @@ import pytest
 from kernel_film import one_run, plain_problem, tolerance
 from lane_widths import lane_widths
 from nacreous.opencl.device import Device
-from nacreous.opencl.film_colour import Side, film_colour
+from nacreous.opencl.film_colour import Side, film_colours
 from nacreous.opencl.precision import Precision
 from reference import Intensities, film, incoherent_film
 
@@ -31,7 +31,7 @@ def test_colour_is_the_weighted_sum_of_intensities(side: Side, precision: Precis
     at = film(n, d_nm, WAVELENGTH_NM, MU)
     expected = integrated(Intensities(at.R_s, at.R_p, at.T_s, at.T_p), side)
     for lanes in lane_widths(device, precision):
-        got = film_colour(device, problem, WEIGHTS, side, precision, lanes=lanes)
+        (got,) = film_colours(device, problem, WEIGHTS, (side,), precision, lanes=lanes)
         np.testing.assert_allclose(got[0], expected, rtol=0, atol=tolerance(precision))
 
 
@@ -41,6 +41,19 @@ def test_a_thick_layer_and_a_group(side: Side, precision: Precision, device: Dev
     """The fused kernel takes every kind of segment."""
     n, d_nm = [1, 2.35, 1.38, 1.52 + 1e-7j, 1], [58, 100, 1e5]
     kinds = {"coherent": [True, True, False], "groups": [(0, 2, 3)]}
-    got = film_colour(device, plain_problem(n, d_nm, WAVELENGTH_NM, MU, **kinds), WEIGHTS, side, precision)
+    problem = plain_problem(n, d_nm, WAVELENGTH_NM, MU, **kinds)
+    (got,) = film_colours(device, problem, WEIGHTS, (side,), precision)
     expected = integrated(incoherent_film(n, d_nm, WAVELENGTH_NM, MU, **kinds), side)
     np.testing.assert_allclose(got[0], expected, rtol=0, atol=10 * tolerance(precision))
+
+
+@BOTH
+def test_both_sides_at_once_are_either_by_itself(precision: Precision, device: Device) -> None:
+    """The film is crossed once for R and T; the order asked for is the order given."""
+    problem = one_run(plain_problem([1, 2.1, 1.4 + 0.01j, 1.5], [420, 150], WAVELENGTH_NM, MU))
+    together = film_colours(device, problem, WEIGHTS, (Side.TRANSMISSION, Side.REFLECTION), precision)
+    assert together.shape == (2, 1, MU.size, 3)
+    at = film([1, 2.1, 1.4 + 0.01j, 1.5], [420, 150], WAVELENGTH_NM, MU)
+    for got, side in zip(together, (Side.TRANSMISSION, Side.REFLECTION), strict=True):
+        expected = integrated(Intensities(at.R_s, at.R_p, at.T_s, at.T_p), side)
+        np.testing.assert_allclose(got[0], expected, rtol=0, atol=tolerance(precision))

@@ -58,7 +58,7 @@ FACET_NUMBERS = [
 
 FILM_NUMBERS = {
     "film": ("INCOHERENT", "PERIODIC"),
-    "film_colour": ("INCOHERENT", "PERIODIC", "TRANSMISSION"),
+    "film_colour": ("INCOHERENT", "PERIODIC"),
     "film_ellipsometry": ("INCOHERENT", "PERIODIC"),
 }
 ROUGH_KERNELS = ("microfacet_area", "albedo_weights", "bsdf", "bsdf_colour")
@@ -88,7 +88,7 @@ def test_every_kernel_is_built_here() -> None:
 def test_film_kernels_build_without_a_warning(kernel: str, precision: Precision, device: Device) -> None:
     """With -Werror, for every precision and lane width; the options on and off."""
     for lanes, switch in product(lane_widths(device, precision), (0, 1)):
-        numbers = (*((name, switch) for name in FILM_NUMBERS[kernel]), ("MEDIA", 4))
+        numbers = (*((name, switch) for name in FILM_NUMBERS[kernel]), ("MEDIA", 4), ("SIDES", 1 + switch))
         assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel
 
 

@@ -110,8 +110,9 @@ def compute(work: Work, observer: Observer | None = None) -> Product:
         work.spec, parts_of([work.target], work.spec), sampling=work.target.sampling, observer=observer
     )
     with tempfile.TemporaryDirectory(prefix="nacreous-", dir=_scratch()) as folder:
-        paths = work.target.write(table, Path(folder, f"{work.name}{work.target.suffix}"))
-        files = tuple(File(path.name.removeprefix(work.name), path.read_bytes()) for path in paths)
+        name = work.stem or table.id
+        paths = work.target.write(table, Path(folder, f"{name}{work.target.suffix}"))
+        files = tuple(File(path.name.removeprefix(name), path.read_bytes()) for path in paths)
     return Product(table.id, files, table.certificate, time.perf_counter() - began)
 
 

@@ -1,4 +1,4 @@
-"""Linear colour of a film over thickness scale and angle: the host of kernels/film_colour.cl."""
+"""Linear colours of a film over thickness scale and angle: the host of kernels/film_colour.cl."""
 
 from enum import Enum
 
@@ -12,49 +12,54 @@ from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles
 
-__all__ = ["Side", "film_colour"]
+__all__ = ["Side", "film_colours"]
 
 _GROUPS = {"cpu": (4,), "gpu": (64,), "other": (1,)}
 
 
 class Side(Enum):
-    """Whose colour: the reflected or the transmitted light's. The value is the kernel's TRANSMISSION."""
+    """Whose light: what is reflected or what is transmitted. Kernels know them by these numbers."""
 
     REFLECTION = 0
     TRANSMISSION = 1
 
 
-def film_colour(
+def film_colours(
     device: Device,
     problem: FilmProblem,
     colour_weights: NDArray[np.float64],
-    side: Side,
+    sides: tuple[Side, ...],
     precision: Precision,
     *,
     observer: Observer | None = None,
     lanes: int | None = None,
 ) -> NDArray[np.floating]:
-    """Sum of the unpolarised R or T times three weights a wavelength, shape (S, A, 3).
+    """Sum of the unpolarised R, or T, times three weights a wavelength, shape (sides, S, A, 3).
 
     Parameters
     ----------
     colour_weights : float array, shape (3, L)
         Weights of the three components at the problem's wavelengths, see `nacreous.optics.colour`.
+    sides : tuple of Side
+        R costs nothing beside T.
 
     Raises
     ------
     BudgetError
         The result is larger than the byte budget; nothing is allocated.
     """
-    item = np.dtype(precision.dtype).itemsize
-    require(f"a colour table of {' x '.join(map(str, problem.shape[:2]))} texels", problem.rows * 3 * item)
+    computed = max(side.value for side in sides) + 1
+    columns, item = 3 * computed, np.dtype(precision.dtype).itemsize
+    texels = f"a colour table of {' x '.join(map(str, problem.shape[:2]))} texels"
+    require(texels, problem.rows * columns * item)
     lanes = lanes or device.lanes(precision)
-    numbers = (*problem.build_numbers, ("TRANSMISSION", side.value))
+    numbers = (*problem.build_numbers, ("SIDES", computed))
     kernel = kernel_of(device, Build("film_colour", precision, lanes, numbers))
     buffers = film_buffers(device, problem, precision, lanes)
     weights = upload_colour_weights(device, colour_weights, buffers.stride, precision.dtype)
-    colour = empty_table(problem.rows, 3, precision.dtype)
-    runner = TileRunner(device, kernel, (colour,), 3, _GROUPS[device.info.kind])
-    for tile in row_tiles(problem.rows, problem.layer_evaluations_a_row, 3 * item, observer):
+    colours = empty_table(problem.rows, columns, precision.dtype)
+    runner = TileRunner(device, kernel, (colours,), columns, _GROUPS[device.info.kind])
+    for tile in row_tiles(problem.rows, problem.layer_evaluations_a_row, columns * item, observer):
         runner.run(tile, (*buffers.arguments, *tile.bounds, weights), (tile.rows,))
-    return colour.reshape(*problem.shape[:2], 3)
+    by_side = np.moveaxis(colours.reshape(*problem.shape[:2], computed, 3), 2, 0)
+    return np.ascontiguousarray(by_side[[side.value for side in sides]])

@@ -4,6 +4,7 @@ The common ones ship as two small tables, written from colour-science by `write_
 colour-science takes longer than computing a lookup texture. Every other name is looked up there.
 """
 
+import functools
 import warnings
 from pathlib import Path
 from typing import Any
@@ -34,7 +35,7 @@ def colour_matching_functions(observer: str) -> tuple[FloatArray, FloatArray]:
         colour-science has no observer of this name.
     """
     if observer in OBSERVERS:
-        table = np.loadtxt(_OBSERVER_TABLE, delimiter=",", skiprows=1)
+        table = _shipped(_OBSERVER_TABLE)
         first = 1 + 3 * OBSERVERS.index(observer)
         return table[:, 0], table[:, first : first + 3].T
     colour = _colour_science()
@@ -54,13 +55,21 @@ def illuminant_power(illuminant: str) -> tuple[FloatArray, FloatArray]:
         colour-science has no illuminant of this name.
     """
     if illuminant in ILLUMINANTS:
-        table = np.loadtxt(_ILLUMINANT_TABLE, delimiter=",", skiprows=1)
+        table = _shipped(_ILLUMINANT_TABLE)
         return table[:, 0], table[:, 1 + ILLUMINANTS.index(illuminant)]
     colour = _colour_science()
     if illuminant not in colour.SDS_ILLUMINANTS:
         raise _unknown("colour.illuminant", "an illuminant", illuminant, set(colour.SDS_ILLUMINANTS))
     power = colour.SDS_ILLUMINANTS[illuminant]
     return np.asarray(power.wavelengths), np.asarray(power.values)
+
+
+@functools.cache
+def _shipped(path: Path) -> FloatArray:
+    """Read a table, once; nobody may write to it."""
+    table = np.loadtxt(path, delimiter=",", skiprows=1)
+    table.flags.writeable = False
+    return table
 
 
 def write_tables() -> None:

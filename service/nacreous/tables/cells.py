@@ -35,6 +35,14 @@ class Cells:
         """Lower ends, then upper ends, shape (2 C,)."""
         return np.concatenate([self.lower, self.upper])
 
+    def samples(self) -> tuple[FloatArray, NDArray[np.intp]]:
+        """Return the ends of all cells once, ascending, and where among them each of `corners` is.
+
+        Neighbours share an end, so that there are half as many as corners, or as many where cells lie apart.
+        """
+        values, position = np.unique(self.corners, return_inverse=True)
+        return values, position
+
     @property
     def middles(self) -> FloatArray:
         """Midpoints, shape (C,)."""

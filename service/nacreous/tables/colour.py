@@ -103,7 +103,7 @@ def settled_colouring(solver: FilmSolver, grid: Grid, system: ColourSystem) -> C
 
 def _colours(solver: FilmSolver, probe: Grid, system: ColourSystem, nm: FloatArray) -> FloatArray:
     at = replace(probe, wavelength_nm=nm)
-    return np.stack([solver.colour(at, system.weights(nm), side) for side in solver.sides])
+    return np.asarray(solver.colours(at, system.weights(nm), solver.sides))
 
 
 def _optical_thickness_nm(stack: Stack, largest_scale: float) -> float:

@@ -71,7 +71,7 @@ class FacetFilm:
     ) -> FloatArray:
         """Linear colour of R or T at the nodes, (S, K, 3), the wavelengths weighted with (3, L)."""
         grid = Grid(thickness_scale, self.cosines, wavelength_nm)
-        return np.asarray(self.solver.colour(grid, weights, side), np.float64)
+        return np.asarray(self.solver.colours(grid, weights, (side,))[0], np.float64)
 
     def mean_reflectance(self, thickness_scale: FloatArray, wavelength_nm: FloatArray) -> FloatArray:
         """Cosine-weighted mean of R over the hemisphere, 2 integral of R mu d mu, shape (S, L)."""

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.opencl.device import Device
-from nacreous.opencl.film_colour import Side, film_colour
+from nacreous.opencl.film_colour import Side, film_colours
 from nacreous.opencl.film_ellipsometry import film_ellipsometry
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.tiles import Observer
@@ -67,12 +67,12 @@ class FilmSolver:
         problem = film_problem(self.stack, self.spread, grid)
         return film_ellipsometry(self.device, problem, self.precision, observer=observer)
 
-    def colour(
-        self, grid: Grid, weights: FloatArray, side: Side, observer: Observer | None = None
+    def colours(
+        self, grid: Grid, weights: FloatArray, sides: tuple[Side, ...], observer: Observer | None = None
     ) -> NDArray[np.floating]:
-        """Linear colour of shape (S, A, 3) of R or T, the grid's wavelengths weighted with (3, L)."""
+        """Linear colours of R, T or both, (sides, S, A, 3), the grid's wavelengths weighted with (3, L)."""
         problem = film_problem(self.stack, self.spread, grid)
-        return film_colour(self.device, problem, weights, side, self.precision, observer=observer)
+        return film_colours(self.device, problem, weights, sides, self.precision, observer=observer)
 
 
 def film_solver(device: Device, stack: Stack, grid: Grid, asked: Precision) -> FilmSolver:

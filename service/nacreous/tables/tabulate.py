@@ -1,5 +1,6 @@
 """From a spec to a table."""
 
+import functools
 from collections.abc import Callable, Collection, Mapping
 from importlib.metadata import version
 from types import MappingProxyType
@@ -76,10 +77,15 @@ def tabulate_table(
     return Table(spec, computed.coords, computed.variables, _provenance(spec, device, computed), sampling)
 
 
+@functools.cache
+def _version() -> str:
+    return version("nacreous")  # which reads a file of the installation
+
+
 def _provenance(spec: Spec, device: Device, computed: Computed) -> dict[str, str]:
     return {
         "id": table_id(spec),
-        "version": version("nacreous"),
+        "version": _version(),
         "spec": spec.model_dump_json(exclude=set(LABELS)),  # the same id is the same bytes
         "certificate": computed.certificate.to_json(),
         "precision": computed.precision.name.lower(),

@@ -23,10 +23,12 @@ from nacreous.tables.solver import FilmSolver
 
 __all__ = [
     "FresnelCertificate",
+    "SpectralFigures",
     "all_colour_cells",
     "certify",
     "colour_cells",
     "colour_differences",
+    "measure_spectra",
     "short_of_grazing",
 ]
 
@@ -45,8 +47,8 @@ _MOST_NUMBERS = 4_000_000
 
 
 @dataclass(frozen=True)
-class FresnelCertificate(Figures):
-    """Measured errors of a table of R and T.
+class SpectralFigures(Figures):
+    """Measured errors of a table's R and T, by which the precision of the table is settled.
 
     Parameters
     ----------
@@ -60,6 +62,22 @@ class FresnelCertificate(Figures):
         Largest R + T of either polarisation; 1 without absorption.
     nonfinite : int
         Values that are not finite; a table with any is refused before it gets a certificate.
+    """
+
+    held_out_points: int
+    intensity_error_max: float
+    intensity_error_p99: float
+    rounding_error_max: float
+    energy_max: float
+    nonfinite: int
+
+
+@dataclass(frozen=True)
+class FresnelCertificate(SpectralFigures):
+    """Measured errors of a table of R and T, and of its colours.
+
+    Parameters
+    ----------
     colour_cells : int
         Cells between the texels that colours were compared at, short of grazing.
     delta_e_max, delta_e_p99 : float or None
@@ -73,12 +91,6 @@ class FresnelCertificate(Figures):
         Largest change of a linear colour on halving the steps that it is integrated with.
     """
 
-    held_out_points: int
-    intensity_error_max: float
-    intensity_error_p99: float
-    rounding_error_max: float
-    energy_max: float
-    nonfinite: int
     colour_cells: int
     delta_e_max: float | None
     delta_e_p99: float | None
@@ -87,24 +99,47 @@ class FresnelCertificate(Figures):
     quadrature_error: float | None
 
 
-def certify(solver: FilmSolver, grid: Grid, colouring: Colouring | None) -> FresnelCertificate:
-    """Measure a table's errors on its cells."""
+def measure_spectra(solver: FilmSolver, grid: Grid) -> SpectralFigures:
+    """Measure the errors of R and T on a table's cells; raises `NumericalError`."""
     scales, angles, waves = _spectral_cells(grid)
-    corners = Grid(scales.corners, angles.corners, waves.corners)
+    axes, positions = zip(*(cells.samples() for cells in (scales, angles, waves)), strict=True)
+    samples = Grid(*axes)
+    texels = _stacked(solver.intensities(samples))  # (4, S', A', L')
+    rounding = np.abs(texels - _stacked(solver.exact_intensities(samples)))
+    corners = texels[np.ix_(range(len(texels)), *positions)]  # (4, 2 S, 2 A, 2 L)
     middles = Grid(scales.middles, angles.middles, waves.middles)
-    texels = _stacked(solver.intensities(corners))  # (4, 2 S, 2 A, 2 L)
-    rounding = np.abs(texels - _stacked(solver.exact_intensities(corners)))
-    error = np.abs(middle_of(texels, 3) - _stacked(solver.exact_intensities(middles)))
-    colour = _NO_COLOUR if colouring is None else _colour_figures(solver, grid, colouring)
-    return FresnelCertificate(
+    error = np.abs(middle_of(corners, 3) - _stacked(solver.exact_intensities(middles)))
+    return SpectralFigures(
         held_out_points=error[0].size,
         intensity_error_max=float(error.max()),
         intensity_error_p99=float(np.quantile(error, 0.99)),
         rounding_error_max=float(rounding.max()),
         energy_max=float((texels[:2] + texels[2:]).max()),
         nonfinite=int(np.count_nonzero(~np.isfinite(texels))),
-        **colour,
     )
+
+
+def certify(
+    spectra: SpectralFigures,
+    solver: FilmSolver,
+    grid: Grid,
+    colouring: Colouring | None,
+    table: FloatArray | None = None,
+) -> FresnelCertificate:
+    """Measure the errors of a table's colours, and say all of it.
+
+    Parameters
+    ----------
+    spectra : SpectralFigures
+    solver : FilmSolver
+    grid : Grid
+    colouring : Colouring, optional
+        Without it there is no colour.
+    table : float array, shape (sides, S, A, 3), optional
+        The colours of the whole table; those about the cells are computed without it.
+    """
+    colour = _NO_COLOUR if colouring is None else _colour_figures(solver, grid, colouring, table)
+    return FresnelCertificate(**vars(spectra), **colour)
 
 
 def _spectral_cells(grid: Grid) -> tuple[Cells, Cells, Cells]:
@@ -138,39 +173,49 @@ def short_of_grazing(angles: Cells) -> Cells:
 
 def colour_differences(solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring) -> FloatArray:
     """CIEDE2000 of interpolated and exact colour amid cells, of R and any T: (sides, S, A)."""
-    return _differences(solver, scales, angles, colouring)[0]
+    return _differences(solver, scales, angles, colouring, _texels(solver, scales, angles, colouring))
 
 
 def _differences(
-    solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring
-) -> tuple[FloatArray, FloatArray]:
-    texels = _texels(solver, scales, angles, colouring)
+    solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring, texels: FloatArray
+) -> FloatArray:
     exact = _exact_colours(solver, scales.middles, angles.middles, colouring)
-    between = middle_of(texels, 2)
-    return colours_apart(between, exact, colouring.system), texels
+    return colours_apart(middle_of(texels, 2), exact, colouring.system)
 
 
 _NO_COLOUR: dict[str, Any] = {**NO_COLOUR_FIGURES, "colour_cells": 0, "delta_e_grazing": None}
 
 
-def _colour_figures(solver: FilmSolver, grid: Grid, colouring: Colouring) -> dict[str, Any]:
+def _colour_figures(
+    solver: FilmSolver, grid: Grid, colouring: Colouring, table: FloatArray | None
+) -> dict[str, Any]:
+    def measured(scales: Cells, angles: Cells) -> tuple[FloatArray, FloatArray]:
+        """Return differences amid cells, and the texels about them."""
+        if table is None:
+            texels = _texels(solver, scales, angles, colouring)
+        else:
+            at_scale = np.searchsorted(grid.thickness_scale, scales.corners)
+            at_mu = np.searchsorted(grid.cos_theta, angles.corners)
+            texels = table[:, at_scale][:, :, at_mu]
+        return _differences(solver, scales, angles, colouring, texels), texels
+
     scales, angles = colour_cells(grid, colouring)
-    differences, texels = _differences(solver, scales, angles, colouring)
+    differences, texels = measured(scales, angles)
+    grazing = _grazing_cells(grid)
     return {
         **colour_figures(differences, texels, colouring),
         "colour_cells": scales.lower.size * angles.lower.size,
-        "delta_e_grazing": _grazing_difference(solver, grid, colouring),
+        "delta_e_grazing": None if grazing is None else float(measured(scales, grazing)[0].max()),
     }
 
 
-def _grazing_difference(solver: FilmSolver, grid: Grid, colouring: Colouring) -> float | None:
+def _grazing_cells(grid: Grid) -> Cells | None:
+    """Return the first few cells beside grazing; None where there are none, or no others."""
     angles = Cells.along(grid.cos_theta, grid.cos_theta.size)
     grazing = angles.where(angles.middles < GRAZING)
     if grazing.lower.size in (0, angles.lower.size):
         return None
-    few = grazing.where(np.arange(grazing.lower.size) < _MOST_GRAZING_CELLS)
-    scales, _ = colour_cells(grid, colouring)
-    return float(colour_differences(solver, scales, few, colouring).max())
+    return grazing.where(np.arange(grazing.lower.size) < _MOST_GRAZING_CELLS)
 
 
 def _stacked(intensities: dict[str, NDArray[np.floating]]) -> FloatArray:
@@ -179,11 +224,10 @@ def _stacked(intensities: dict[str, NDArray[np.floating]]) -> FloatArray:
 
 def _texels(solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring) -> FloatArray:
     """Colours at the cells' corners, as the table has them: (sides, 2 S, 2 A, 3)."""
-    scale, at_scale = np.unique(scales.corners, return_inverse=True)  # neighbours share their corners
-    mu, at_mu = np.unique(angles.corners, return_inverse=True)
+    (scale, at_scale), (mu, at_mu) = scales.samples(), angles.samples()
     grid = Grid(scale, mu, colouring.quadrature_nm)
-    colours = [solver.colour(grid, colouring.weights, side) for side in solver.sides]
-    return np.stack([np.asarray(colour, np.float64) for colour in colours])[:, at_scale][:, :, at_mu]
+    colours = np.asarray(solver.colours(grid, colouring.weights, solver.sides), np.float64)
+    return colours[:, at_scale][:, :, at_mu]
 
 
 def _exact_colours(

@@ -1,6 +1,6 @@
 """R and T of a film over thickness scale, angle and wavelength, psi and Delta, and colours."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -24,7 +24,7 @@ from nacreous.tables.computed import (
     run,
 )
 from nacreous.tables.film import SINGLE_TOLERANCE, Grid
-from nacreous.tables.fresnel.certificate import FresnelCertificate, certify
+from nacreous.tables.fresnel.certificate import SpectralFigures, certify, measure_spectra
 from nacreous.tables.fresnel.refine import refined
 from nacreous.tables.solver import FilmSolver, film_solver
 from nacreous.tables.spec import Spec
@@ -59,9 +59,10 @@ def compute_fresnel(
     colouring = colouring_of(spec, solver, grid)
     if spec.accuracy.delta_e is not None and colouring is not None:
         grid = refined(solver, grid, colouring, spec.accuracy.delta_e)
-    solver, certificate = _certified(solver, grid, colouring)
+    solver, spectra = _settled(solver, grid)
     steps = _steps(spec, solver, grid, colouring, wanted)
     variables = run(steps, asked_precision(spec), observer)
+    certificate = certify(spectra, solver, grid, colouring, _colours_of(variables))
     return Computed(film_axes(grid, colouring), variables, certificate, solver.precision)
 
 
@@ -77,19 +78,23 @@ def _check_ellipsometry(spec: Spec) -> None:
         )
 
 
-def _certified(
-    solver: FilmSolver, grid: Grid, colouring: Colouring | None
-) -> tuple[FilmSolver, FresnelCertificate]:
-    """Certify a table before it is computed, in double precision where single turns out to lose too much."""
+def _settled(solver: FilmSolver, grid: Grid) -> tuple[FilmSolver, SpectralFigures]:
+    """Settle the precision before a table is computed: double where single turns out to lose too much."""
     if solver.precision is Precision.SINGLE:
         try:
-            certificate = certify(solver, grid, colouring)
+            figures = measure_spectra(solver, grid)
         except NumericalError:
-            certificate = None
-        if certificate is not None and certificate.rounding_error_max <= SINGLE_TOLERANCE:
-            return solver, certificate
+            figures = None
+        if figures is not None and figures.rounding_error_max <= SINGLE_TOLERANCE:
+            return solver, figures
     exact = replace(solver, precision=Precision.DOUBLE)
-    return exact, certify(exact, grid, colouring)
+    return exact, measure_spectra(exact, grid)
+
+
+def _colours_of(variables: Mapping[str, Variable]) -> NDArray[np.float64] | None:
+    """Return the colours of a table, (sides, S, A, 3); None where none are wanted."""
+    colours = [variables[name].values for name, _ in _COLOURS.values() if name in variables]
+    return np.asarray(colours, np.float64) if colours else None
 
 
 def _steps(
@@ -101,7 +106,7 @@ def _steps(
     if Part.SPECTRUM in wanted and spec.table.ellipsometry:
         steps.append(partial(_spectra, solver.ellipsometry, grid, "rad"))
     if Part.COLOUR in wanted and colouring is not None:
-        steps += [partial(_colour, solver, grid, colouring, side) for side in solver.sides]
+        steps.append(partial(_colours, solver, grid, colouring))
     return steps
 
 
@@ -117,10 +122,13 @@ def _spectra(
     }
 
 
-def _colour(
-    solver: FilmSolver, grid: Grid, colouring: Colouring, side: Side, observer: Observer | None
+def _colours(
+    solver: FilmSolver, grid: Grid, colouring: Colouring, observer: Observer | None
 ) -> dict[str, Variable]:
-    name, meaning = _COLOURS[side]
     integrated = Grid(grid.thickness_scale, grid.cos_theta, colouring.quadrature_nm)
-    colour = solver.colour(integrated, colouring.weights, side, observer)
-    return {name: Variable(_COLOUR_DIMS, colour, "1", meaning)}
+    colours = solver.colours(integrated, colouring.weights, solver.sides, observer)
+    of_sides = zip(solver.sides, colours, strict=True)
+    return {
+        name: Variable(_COLOUR_DIMS, colour, "1", meaning)
+        for (name, meaning), colour in ((_COLOURS[side], colour) for side, colour in of_sides)
+    }
