@@ -1,5 +1,7 @@
 """A machine with little memory: what does not fit is refused unbegun, and the service lives on."""
 
+from pathlib import Path
+
 import pytest
 
 from nacreous.engine.worker_engine import WorkerSettings
@@ -25,3 +27,24 @@ def test_a_table_beyond_the_memory_is_refused() -> None:
             assert engine.restarts == 0
 
     patiently(capped())
+
+
+def test_the_memory_of_arrays_is_kept() -> None:
+    """Tables like those before need no new pages from the system, which clears each before it gives it."""
+
+    async def counted() -> int:
+        async with running() as engine:
+            for table in range(4):
+                await engine.compute(film_work(100 + table, size=128))
+            assert engine.worker_pid
+            before = page_faults(engine.worker_pid)
+            for table in range(4):
+                await engine.compute(film_work(200 + table, size=128))
+            return page_faults(engine.worker_pid) - before
+
+    assert patiently(counted()) < 500  # 7,500 where arrays are given back
+
+
+def page_faults(pid: int) -> int:
+    """Return how many pages a process has been given by now; see proc_pid_stat(5), minflt."""
+    return int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[7])

@@ -74,6 +74,11 @@ class FilmSolver:
         problem = film_problem(self.stack, self.spread, grid)
         return film_colours(self.device, problem, weights, sides, self.precision, observer=observer)
 
+    def exact_colours(self, grid: Grid, weights: FloatArray, sides: tuple[Side, ...]) -> FloatArray:
+        """The same in double precision."""
+        problem = film_problem(self.stack, self.spread, grid)
+        return np.asarray(film_colours(self.device, problem, weights, sides, Precision.DOUBLE))
+
 
 def film_solver(device: Device, stack: Stack, grid: Grid, asked: Precision) -> FilmSolver:
     """Settle the thickness nodes and the precision that the film needs on a grid."""

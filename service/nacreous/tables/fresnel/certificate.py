@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nacreous.opencl.film_colour import Side
 from nacreous.tables.cells import Cells, middle_of
 from nacreous.tables.colour import Colouring
 from nacreous.tables.colour_figures import NO_COLOUR_FIGURES, colour_figures, colours_apart
@@ -42,8 +41,6 @@ _ALL_SPECTRAL_CELLS, _SPREAD_SPECTRAL_CELLS = 250_000, (8, 64, 32)
 _ALL_COLOUR_NUMBERS, _SPREAD_COLOUR_CELLS = 1_000_000, (32, 128)
 """Cells whose exact colours take so many spectral values are all compared; else so many over either axis."""
 _MOST_GRAZING_CELLS = 8
-_MOST_NUMBERS = 4_000_000
-"""Spectral values held at a time while exact colours are integrated."""
 
 
 @dataclass(frozen=True)
@@ -179,7 +176,8 @@ def colour_differences(solver: FilmSolver, scales: Cells, angles: Cells, colouri
 def _differences(
     solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouring, texels: FloatArray
 ) -> FloatArray:
-    exact = _exact_colours(solver, scales.middles, angles.middles, colouring)
+    amid = Grid(scales.middles, angles.middles, colouring.quadrature_nm)
+    exact = solver.exact_colours(amid, colouring.weights, solver.sides)
     return colours_apart(middle_of(texels, 2), exact, colouring.system)
 
 
@@ -228,28 +226,3 @@ def _texels(solver: FilmSolver, scales: Cells, angles: Cells, colouring: Colouri
     grid = Grid(scale, mu, colouring.quadrature_nm)
     colours = np.asarray(solver.colours(grid, colouring.weights, solver.sides), np.float64)
     return colours[:, at_scale][:, :, at_mu]
-
-
-def _exact_colours(
-    solver: FilmSolver, thickness_scale: FloatArray, cos_theta: FloatArray, colouring: Colouring
-) -> FloatArray:
-    """Colours integrated from spectra in double precision, some angles at a time: (sides, S, A, 3)."""
-    at_a_time = max(1, _MOST_NUMBERS // (thickness_scale.size * colouring.quadrature_nm.size))
-    blocks = np.split(cos_theta, range(at_a_time, cos_theta.size, at_a_time))
-    return np.concatenate(
-        [
-            _block_colours(solver, Grid(thickness_scale, mu, colouring.quadrature_nm), colouring)
-            for mu in blocks
-        ],
-        axis=2,
-    )
-
-
-def _block_colours(solver: FilmSolver, grid: Grid, colouring: Colouring) -> FloatArray:
-    exact = solver.exact_intensities(grid)
-    of_each = colouring.weights.T / 2  # (L, 3), for either polarisation
-    colours = {
-        Side.REFLECTION: exact["R_s"] @ of_each + exact["R_p"] @ of_each,
-        Side.TRANSMISSION: exact["T_s"] @ of_each + exact["T_p"] @ of_each,
-    }
-    return np.stack([colours[side] for side in solver.sides])
