@@ -1,0 +1,17 @@
+/** The bearer key of a service that asks for one: kept for this tab alone. */
+
+import { signal } from "@preact/signals";
+
+const STORED = "nacreous:key";
+
+export const key = signal(sessionStorage.getItem(STORED) ?? "");
+
+export function useKey(value: string): void {
+  key.value = value;
+  sessionStorage.setItem(STORED, value);
+}
+
+/** The header of a request. */
+export function bearerKey(): Record<string, string> {
+  return key.value ? { Authorization: `Bearer ${key.value}` } : {};
+}

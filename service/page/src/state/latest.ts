@@ -1,0 +1,23 @@
+/** Work of which only the newest counts: one at a time, and what is asked for meanwhile replaces what waits. */
+
+export class Latest<Asked> {
+  #running = false;
+  #waiting: Asked | undefined;
+
+  constructor(readonly work: (asked: Asked) => Promise<void>) {}
+
+  /** Do this work, at once or after what is in hand; earlier work that still waits is left out. */
+  ask(asked: Asked): void {
+    this.#waiting = asked;
+    if (!this.#running) void this.#run();
+  }
+
+  async #run(): Promise<void> {
+    this.#running = true;
+    for (let asked = this.#waiting; asked !== undefined; asked = this.#waiting) {
+      this.#waiting = undefined;
+      await this.work(asked);
+    }
+    this.#running = false;
+  }
+}
