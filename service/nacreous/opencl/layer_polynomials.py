@@ -31,19 +31,24 @@ _TOLERANCE = 3e-8
 _FEWEST_ANGLES = 48
 """Fewer do not pay for the coefficients."""
 
+_MOST_DECAY = 1.0
+"""Difference of a layer's decay between grazing and normal incidence: what it divides out costs digits."""
+
 _MOST_NUMBERS = 2**24
 """Coefficients of all layers: 64 MB, beyond which it takes as long to read as to compute."""
 
 
 def layer_degree(problem: FilmProblem, precision: Precision) -> int:
     """Return the degree by which all layers are as exact as single precision; 0 where waves are better."""
+    thicknesses, wavelengths = problem.thickness_nm.size, problem.wavelength_nm.size
     if precision is Precision.DOUBLE or problem.incoherent or problem.cos_theta.size < _FEWEST_ANGLES:
+        return 0
+    if thicknesses == 0 or _decay_range(problem) > _MOST_DECAY:
         return 0
     n0_over_lambda = float((problem.index[0].real / problem.wavelength_nm).max())
     half_width = (2 * math.pi * float(problem.thickness_nm.max()) * n0_over_lambda) ** 2 / 2
     degree = next((degree for degree in DEGREES if _truncation(half_width, degree) < _TOLERANCE), 0)
-    numbers = problem.thickness_nm.size * problem.wavelength_nm.size * _runs(degree)
-    return degree if numbers <= _MOST_NUMBERS else 0
+    return degree if thicknesses * wavelengths * _runs(degree) <= _MOST_NUMBERS else 0
 
 
 def layer_polynomials(
@@ -74,6 +79,15 @@ def layer_polynomials(
 def _runs(degree: int) -> int:
     """Numbers that a layer has for a wavelength: see kernels/polynomial_layer.clh."""
     return 4 * (degree + 1) + 1
+
+
+def _decay_range(problem: FilmProblem) -> float:
+    """Largest 2 pi d (Im kz at mu = 0 - Im kz at mu = 1) / lambda of layers less dense than the outside."""
+    index, n0 = problem.index[1:-1], problem.index[0].real
+    rare = (index.real < n0).any(axis=1)
+    change = np.sqrt(index[rare] ** 2 - n0**2).imag - index[rare].imag  # (layers, L)
+    turns = problem.thickness_nm.max(axis=(0, 1))[rare, None] / problem.wavelength_nm
+    return float(2 * math.pi * (turns * change).max(initial=0))
 
 
 def _truncation(half_width: float, degree: int) -> float:
