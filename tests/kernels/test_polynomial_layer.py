@@ -1,4 +1,4 @@
-"""kernels/polynomial_layer.clh: thin layers as polynomials of the angle, against films in double precision."""
+"""kernels/polynomial_layer.clh: thin layers as polynomials of the angle, against the reference."""
 
 from dataclasses import replace
 
@@ -16,7 +16,8 @@ from reference import film
 
 MU = np.concatenate([[0.0, 1e-6, 1e-3], np.linspace(0.01, 1, 61)])
 WAVELENGTH_NM = np.linspace(380, 780, 45)
-TOLERANCE = 5e-6
+LAYER_TOLERANCE = 1e-6
+"""What a layer may add to the error in single precision; waves add as much."""
 
 FILMS = {
     "clear": (1.0, [2.35, 1.46, 2.1, 1.38], [60.0, 95.0, 40.0, 110.0]),
@@ -35,6 +36,11 @@ def thin_film(name: str, factor: float = 1.0) -> FilmProblem:
     return one_run(plain_problem([incident, *layers, 1.5], factor * np.array(d_nm), WAVELENGTH_NM, MU))
 
 
+def tolerance(layers: int) -> float:
+    """Error allowed of so many layers: that of five at least."""
+    return LAYER_TOLERANCE * max(layers, 5)
+
+
 def largest_error(device: Device, problem: FilmProblem, lanes: int | None = None) -> float:
     """Return by how much R and T in single precision differ from tests/reference.py."""
     got = film_intensities(device, problem, Precision.SINGLE, lanes=lanes)
@@ -49,14 +55,14 @@ def test_thin_films_agree_with_the_reference(name: str, factor: float, degree: i
     """From grazing to normal incidence, clear, absorbing and metal, as exactly as waves do."""
     problem = thin_film(name, factor)
     assert layer_degree(problem, Precision.SINGLE) == degree
-    assert largest_error(device, problem) <= TOLERANCE
+    assert largest_error(device, problem) <= tolerance(len(problem.index) - 2)
 
 
 @pytest.mark.parametrize("name", ["clear", "metal"])
 def test_every_width_of_lanes_agrees(name: str, device: Device) -> None:
     """Coefficients lie in runs as long as the lanes are wide."""
     for lanes in lane_widths(device, Precision.SINGLE):
-        assert largest_error(device, thin_film(name), lanes) <= TOLERANCE
+        assert largest_error(device, thin_film(name), lanes) <= tolerance(5)
 
 
 def test_random_thin_films_agree_with_the_reference(device: Device) -> None:
@@ -68,7 +74,7 @@ def test_random_thin_films_agree_with_the_reference(device: Device) -> None:
         n = [1, *(rng.uniform(1, 3.5, layers) + 1j * k), rng.uniform(1.3, 3) + 0.1j]
         problem = one_run(plain_problem(n, rng.uniform(0.5, 140, layers), WAVELENGTH_NM, MU))
         assert layer_degree(problem, Precision.SINGLE) == DEGREES[0]
-        assert largest_error(device, problem) <= TOLERANCE
+        assert largest_error(device, problem) <= tolerance(layers)
 
 
 @pytest.mark.parametrize("repeat", [2, 9])
@@ -82,7 +88,9 @@ def test_a_group_of_thin_layers_is_its_periods_written_out(name: str, repeat: in
     got = film_intensities(device, short, Precision.SINGLE)
     expected = film([incident, *layers * repeat, 1.5], d_nm * repeat, WAVELENGTH_NM, MU)
     for name, values in got.items():
-        np.testing.assert_allclose(values[0], getattr(expected, name), rtol=0, atol=4 * TOLERANCE)
+        np.testing.assert_allclose(
+            values[0], getattr(expected, name), rtol=0, atol=2 * tolerance(len(layers) * repeat)
+        )
 
 
 def test_every_thickness_has_coefficients_of_its_own(device: Device) -> None:
@@ -97,12 +105,12 @@ def test_every_thickness_has_coefficients_of_its_own(device: Device) -> None:
     for row, variants in enumerate(thicknesses):
         films = [film(problem.index, d, problem.wavelength_nm, problem.cos_theta) for d in variants]
         expected = sum(weight * one.R_p for weight, one in zip(weights, films, strict=True))
-        np.testing.assert_allclose(got["R_p"][row], expected, rtol=0, atol=TOLERANCE)
+        np.testing.assert_allclose(got["R_p"][row], expected, rtol=0, atol=tolerance(5))
 
 
 @pytest.mark.parametrize("degree", DEGREES)
 def test_a_cosine_is_interpolated_within_its_bound(degree: int) -> None:
-    """cos(sqrt z) on an interval of half width h: h^(D + 1) / ((2 D + 2)! 2^D), nearly reached about z = 0."""
+    """cos(sqrt z) on an interval of half width h: h^(D + 1) / ((2 D + 2)! 2^D), nearly reached from 0 on."""
     half_width = {5: 2.7, 8: 15.0}[degree]
     mu2, t = node_mu2(degree), np.linspace(-1, 1, 201)
     coefficients = to_powers(degree) @ to_chebyshev(degree) @ np.cos(np.sqrt(2 * half_width * mu2))
@@ -129,7 +137,7 @@ def test_double_precision_has_waves() -> None:
 
 
 def test_a_gap_in_a_dense_medium_has_waves() -> None:
-    """A decay of 1.9 at grazing incidence, which is nothing at normal incidence, would cost digits if divided out."""
+    """A decay of 1.9 at grazing incidence that is nothing at normal incidence would cost digits."""
     problem = one_run(plain_problem([2.0, 1.2 + 2e-3j, 2.0], [75], WAVELENGTH_NM, MU))
     assert layer_degree(problem, Precision.SINGLE) == 0
     assert (

@@ -105,8 +105,7 @@ def node_mu2(degree: int) -> NDArray[np.float64]:
 def to_chebyshev(degree: int) -> NDArray[np.float64]:
     """Return what takes values at the nodes to coefficients of Chebyshev polynomials, (order, node)."""
     values = chebyshev.chebvander(chebyshev.chebpts1(degree + 1), degree)  # (node, order)
-    matrix: NDArray[np.float64] = np.linalg.inv(values)
-    return matrix
+    return np.linalg.inv(values).astype(np.float64)
 
 
 @cache
