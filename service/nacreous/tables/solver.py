@@ -75,7 +75,7 @@ class FilmSolver:
         return film_colours(self.device, problem, weights, sides, self.precision, observer=observer)
 
     def exact_colours(self, grid: Grid, weights: FloatArray, sides: tuple[Side, ...]) -> FloatArray:
-        """The same in double precision."""
+        """Return the same in double precision."""
         problem = film_problem(self.stack, self.spread, grid)
         return np.asarray(film_colours(self.device, problem, weights, sides, Precision.DOUBLE))
 
