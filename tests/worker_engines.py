@@ -8,7 +8,7 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
-from nacreous.engine.engine import Readiness
+from nacreous.engine.engine import Engine, Readiness
 from nacreous.engine.work import Product, Work
 from nacreous.engine.worker_engine import WorkerEngine, WorkerSettings
 from nacreous.formats.names import FormatName
@@ -59,6 +59,14 @@ async def until(engine: WorkerEngine, *readiness: Readiness) -> None:
     """Return when the engine is as ready as asked; it computes nothing meanwhile."""
     while engine.state.readiness not in readiness:
         await asyncio.sleep(0.01)
+
+
+async def begun(engine: Engine, work: Work) -> "asyncio.Task[Product]":
+    """Ask for a work, and return what asks once it is in hand."""
+    told = asyncio.Event()
+    asking = asyncio.create_task(engine.compute(work, lambda _: told.set()))
+    await told.wait()
+    return asking
 
 
 async def at_first_progress(engine: WorkerEngine, work: Work, act: Callable[[], None]) -> Product:

@@ -12,7 +12,7 @@ from nacreous.engine.worker_engine import WorkerEngine, WorkerSettings
 from nacreous.errors import BudgetError, BusyError, DeadlineError, SpecError, UnavailableError
 from nacreous.formats.names import FormatName
 from nacreous.tables.presets import preset
-from worker_engines import film_work, long_work, patiently
+from worker_engines import begun, film_work, long_work, patiently
 
 QUEUE_LENGTH = 2
 Made = InProcessEngine | WorkerEngine
@@ -100,9 +100,7 @@ def test_who_is_gone_holds_up_nobody(make: Callable[[], Made]) -> None:
     async def asked() -> None:
         engine = make()
         await engine.start()
-        begun = asyncio.Event()
-        in_hand = asyncio.create_task(engine.compute(long_work(), lambda _: begun.set()))
-        await begun.wait()
+        in_hand = await begun(engine, long_work())
         waits, stays = (asyncio.create_task(engine.compute(film_work(t))) for t in (410.0, 411.0))
         await asyncio.sleep(0)
         assert (engine.busy, engine.queued) == (1, 2)
@@ -124,9 +122,7 @@ def test_a_stop_finishes_what_is_in_hand_and_refuses_what_waits(make: Callable[[
     async def asked() -> None:
         engine = make()
         await engine.start()
-        begun = asyncio.Event()
-        in_hand = asyncio.create_task(engine.compute(long_work(), lambda _: begun.set()))
-        await begun.wait()
+        in_hand = await begun(engine, long_work())
         waits = asyncio.create_task(engine.compute(film_work()))
         await asyncio.sleep(0)
         stopping = asyncio.create_task(engine.stop())

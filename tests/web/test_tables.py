@@ -14,17 +14,12 @@ from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS
 from nacreous.tables.spec import Spec
 from running_app import RunningApp, running_app, settings_for
+from spec_texts import STACK
 
-TOML = """
-[stack]
-incident = "air"
-substrate = { n = 1.5 }
-[[stack.layers]]
-material = { n = 2.0 }
-thickness_nm = 420
+TOML = f"""{STACK}
 [table]
 cos_theta = 8
-wavelength_nm = { start = 400, stop = 700, count = 16 }
+wavelength_nm = {{ start = 400, stop = 700, count = 16 }}
 """
 
 

@@ -74,7 +74,7 @@ def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
     app.router.routes.extend(docs_routes(app.openapi_url or ""))
     app.add_exception_handler(HTTPException, _http_problem)
     app.add_exception_handler(RequestValidationError, _validation_problem)
-    app.add_middleware(Problems)  # within what FastAPI would answer 500 with
+    app.add_middleware(Problems)  # FastAPI answers 500 where an error leaves it; `_layers` has its own errors
     app.state.layers = _layers(app, service)
     use_openapi(app)
     return app
