@@ -138,6 +138,55 @@ def test_a_stop_finishes_what_is_in_hand_and_refuses_what_waits(make: Callable[[
     patiently(asked())
 
 
+@every_engine
+def test_a_drained_engine_ends_what_it_has_begun_and_takes_nothing_new(make: Callable[[], Made]) -> None:
+    """Draining does not wait: what waits and what comes is refused, what is in hand is answered in full."""
+
+    async def asked() -> None:
+        engine = make()
+        await engine.start()
+        in_hand = await begun(engine, long_work())
+        waits = asyncio.create_task(engine.compute(film_work()))
+        await asyncio.sleep(0)
+        engine.drain()
+        assert engine.state.readiness is Readiness.STOPPED
+        for refused in (waits, engine.compute(film_work())):
+            with pytest.raises(UnavailableError):
+                await refused
+        assert not in_hand.done()
+        assert (await in_hand).files
+        await engine.stop()
+
+    patiently(asked())
+
+
+def hurried_in_process() -> InProcessEngine:
+    """Return an engine in this process whose own deadline no work can keep."""
+    return InProcessEngine(deadline_s=1e-9)
+
+
+def hurried_with_worker() -> WorkerEngine:
+    """Return an engine with a worker, whose own deadline no work can keep."""
+    return WorkerEngine(WorkerSettings(deadline_s=1e-9))
+
+
+@pytest.mark.parametrize("make", [hurried_in_process, hurried_with_worker])
+def test_a_deadline_of_its_own_comes_before_the_engine_s(make: Callable[[], Made]) -> None:
+    """A work that brings its deadline is computed within that; one that brings none, within the engine's."""
+
+    async def asked() -> None:
+        engine = make()
+        await engine.start()
+        with pytest.raises(DeadlineError, match="longer than 1e-09 s"):
+            await engine.compute(film_work())
+        assert (await engine.compute(film_work(), deadline_s=60.0)).files
+        with pytest.raises(DeadlineError, match="longer than 2e-09 s"):
+            await engine.compute(film_work(421.0), deadline_s=2e-9)
+        await engine.stop()
+
+    patiently(asked())
+
+
 def test_a_deadline_in_this_process_is_kept_between_tiles() -> None:
     """What takes too long is ended between two tiles, and the next work is done."""
 

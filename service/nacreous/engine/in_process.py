@@ -75,7 +75,7 @@ class InProcessEngine(QueuedEngine):
         self, work: Work, observer: Observer | None = None, deadline_s: float | None = None
     ) -> Product:
         """Return what comes of the work; the observer is called from the event loop. See `Engine.compute`."""
-        if self._thread is None:
+        if self.state is _STOPPED:
             raise self._unavailable()
         tell = _in_loop(observer)
         within_s = deadline_s or self._deadline_s
