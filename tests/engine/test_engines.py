@@ -160,6 +160,23 @@ def test_a_drained_engine_ends_what_it_has_begun_and_takes_nothing_new(make: Cal
     patiently(asked())
 
 
+@every_engine
+def test_who_waits_beyond_its_deadline_is_told_to_come_again(make: Callable[[], Made]) -> None:
+    """Its turn must come within the time that the work may take; what is in hand goes on."""
+
+    async def asked() -> None:
+        engine = make()
+        await engine.start()
+        in_hand = await begun(engine, long_work())
+        with pytest.raises(BusyError, match="takes very long"):
+            await engine.compute(film_work(), deadline_s=1e-9)
+        assert (engine.busy, engine.queued, in_hand.done()) == (1, 0, False)
+        assert (await in_hand).files
+        await engine.stop()
+
+    patiently(asked())
+
+
 def hurried_in_process() -> InProcessEngine:
     """Return an engine in this process whose own deadline no work can keep."""
     return InProcessEngine(deadline_s=1e-9)
