@@ -167,6 +167,15 @@ def test_a_service_out_of_reach_is_named_with_what_to_do(run: Run) -> None:
     assert "nacreous serve" in done.stderr
 
 
+@pytest.mark.parametrize("address", ["http://anna:s3cret@127.0.0.1:9", "htp://anna:s3cret@host"])
+def test_a_password_in_the_address_is_not_shown(run: Run, address: str) -> None:
+    """Neither where nothing answers there, nor where it is no address at all."""
+    done = run("--server", address, "tabulate", "soap-bubble")
+    assert done.returncode in {1, 2}
+    assert "…@" in done.stderr
+    assert "s3cret" not in done.stderr
+
+
 def test_another_program_at_the_address_is_told(run: Run) -> None:
     """Not every port is a service's."""
     with answering() as service:
