@@ -4,7 +4,7 @@ import asyncio
 import os
 import sys
 from collections.abc import AsyncIterator, Callable, Coroutine
-from contextlib import asynccontextmanager
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,6 +15,7 @@ from nacreous.formats.names import FormatName
 from nacreous.tables.spec import Spec
 
 Result = TypeVar("Result")
+Started = TypeVar("Started", bound=Engine)
 
 WORKERS = Path(__file__).parent / "faults" / "workers"
 """Workers that have a fault: each serves as the real one does, and computes as its name says."""
@@ -45,14 +46,18 @@ def faulty(name: str, *arguments: str, **settings: Any) -> WorkerSettings:  # no
 
 
 @asynccontextmanager
-async def running(settings: WorkerSettings | None = None) -> AsyncIterator[WorkerEngine]:
+async def started(engine: Started) -> AsyncIterator[Started]:
     """Start an engine, and stop it whatever happens."""
-    engine = WorkerEngine(settings)
     await engine.start()
     try:
         yield engine
     finally:
         await engine.stop()
+
+
+def running(settings: WorkerSettings | None = None) -> AbstractAsyncContextManager[WorkerEngine]:
+    """Run an engine with a worker of these settings."""
+    return started(WorkerEngine(settings))
 
 
 async def until(engine: WorkerEngine, *readiness: Readiness) -> None:
