@@ -128,7 +128,9 @@ def test_a_page_of_the_origin_reads_errors_too(guarded: RunningApp) -> None:
 
 
 def test_without_setting_no_origin_is_allowed(app: RunningApp) -> None:
-    """CORS is off unless it is configured."""
+    """CORS is off unless it is configured: a preflight is a method that the path does not have."""
     answer = app.get("/v1/presets", headers={"origin": "https://studio.example"})
     assert answer.status_code == 200
     assert "access-control-allow-origin" not in answer.headers
+    asked = {"origin": "https://studio.example", "access-control-request-method": "GET"}
+    assert app.request("OPTIONS", "/v1/presets", headers=asked).status_code == 405
