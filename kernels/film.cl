@@ -12,11 +12,10 @@ kernel void film(FILM_ARGUMENTS,
     int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
     if (row >= row_stop || block * LANES >= stride) return;
 
-    film_stack stack = FILM_STACK;
+    film_stack first = FILM_STACK, stack = later_variant(first, scale * variants);
     wave waves[MEDIA];
     incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
-    thickness_nm += scale * variants * layer_count;
-    intensities mean = mean_intensities(stack, thickness_nm, weights, variants, in);
+    intensities mean = mean_intensities(stack, weights, variants, in);
 
     int out = tile_row * (stride / LANES) + block;
     lane_store(mean.R_s, R_s, out);

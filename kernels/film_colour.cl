@@ -21,14 +21,13 @@ kernel void film_colour(FILM_ARGUMENTS,
     int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
     if (row >= row_stop) return;
 
-    film_stack stack = FILM_STACK;
+    film_stack first = FILM_STACK, stack = later_variant(first, scale * variants);
     wave waves[MEDIA];
-    thickness_nm += scale * variants * layer_count;
     lane sums[3 * SIDES];
     for (int c = 0; c < 3 * SIDES; ++c) sums[c] = (lane)(0);
     for (int block = 0; block < stride / LANES; ++block) {
         incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
-        intensities I = mean_intensities(stack, thickness_nm, weights, variants, in);
+        intensities I = mean_intensities(stack, weights, variants, in);
         add_block(sums, I.R_s, I.R_p, colour_weights, stride, block);
 #if SIDES == 2
         add_block(sums + 3, I.T_s, I.T_p, colour_weights, stride, block);

@@ -10,12 +10,11 @@ kernel void film_ellipsometry(FILM_ARGUMENTS,
     int row = row_origin + tile_row, scale = row / angles, angle = row % angles;
     if (row >= row_stop || block * LANES >= stride) return;
 
-    film_stack stack = FILM_STACK;
+    film_stack first = FILM_STACK, stack = later_variant(first, scale * variants);
     wave waves[MEDIA];
     incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
-    admittance substrate = admittance_of(stack, layer_count, in);
     magnitude size = no_magnitude();
-    column f = coherent_field(stack, thickness_nm + scale * variants * layer_count, in, substrate, &size);
+    column f = coherent_field(stack, in, &size);
     rescale(&f, 1, &size);
     amplitudes s = split_field(f.s, in.b_s), p = split_field(f.p, in.b_p);
 

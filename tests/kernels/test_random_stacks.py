@@ -14,7 +14,7 @@ from nacreous.opencl.film_problem import FilmProblem, Segment
 from nacreous.opencl.precision import Precision
 from nacreous.tables.film import phase_precision
 
-ANGLES, WAVELENGTHS, STACKS_A_KIND = 40, 512, 1300
+ANGLES, WAVELENGTHS, STACKS_A_KIND = 64, 512, 900
 SAMPLES = 100_000_000
 LEAST, MOST = -1e-6, 1 + 2e-5
 

@@ -6,7 +6,8 @@ import pytest
 from kernel_film import kernel_film, one_run, plain_problem
 from nacreous.opencl.device import Device
 from nacreous.opencl.film import film_intensities
-from nacreous.opencl.film_problem import FilmProblem, film_buffers
+from nacreous.opencl.film_buffers import film_buffers
+from nacreous.opencl.film_problem import FilmProblem
 from nacreous.opencl.precision import Precision
 from reference import film
 

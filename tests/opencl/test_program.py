@@ -11,13 +11,16 @@ from lane_widths import lane_widths
 from nacreous.errors import DeviceError
 from nacreous.opencl import sources
 from nacreous.opencl.device import Device
+from nacreous.opencl.layer_polynomials import DEGREES
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 
 
 def test_a_kernel_is_built_once(device: Device) -> None:
     """The same build is the same kernel; in another lane width it is another."""
-    build = Build("film", Precision.SINGLE, 4, (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4)))
+    build = Build(
+        "film", Precision.SINGLE, 4, (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("DEGREE", 0))
+    )
     assert kernel_of(device, build) is kernel_of(device, build)
     assert kernel_of(device, replace(build, lanes=1)) is not kernel_of(device, build)
 
@@ -41,7 +44,10 @@ def test_a_fault_is_found_by_file_and_line(
     header.write_text("\n".join(lines))
     monkeypatch.setattr(sources, "KERNELS", folder)
     build = Build(
-        "film", Precision.SINGLE, 4, (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("FAULT", len(fault)))
+        "film",
+        Precision.SINGLE,
+        4,
+        (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("DEGREE", 0), ("FAULT", len(fault))),
     )
     with pytest.raises(DeviceError, match="kernel film does not build") as refused:
         kernel_of(device, build)
@@ -78,7 +84,7 @@ def ways_to_build(device: Device) -> list[tuple[Precision, int]]:
 def test_every_kernel_is_built_here() -> None:
     """A new kernel must be added below."""
     assert (
-        sorted([*FILM_NUMBERS, *ROUGH_KERNELS, "microfacets", "register_width", "warp"])
+        sorted([*FILM_NUMBERS, *ROUGH_KERNELS, "layer_polynomials", "microfacets", "register_width", "warp"])
         == sources.kernel_names()
     )
 
@@ -88,8 +94,27 @@ def test_every_kernel_is_built_here() -> None:
 def test_film_kernels_build_without_a_warning(kernel: str, precision: Precision, device: Device) -> None:
     """With -Werror, for every precision and lane width; the options on and off."""
     for lanes, switch in product(lane_widths(device, precision), (0, 1)):
-        numbers = (*((name, switch) for name in FILM_NUMBERS[kernel]), ("MEDIA", 4), ("SIDES", 1 + switch))
+        switches = ((name, switch) for name in FILM_NUMBERS[kernel])
+        numbers = (*switches, ("MEDIA", 4), ("SIDES", 1 + switch), ("DEGREE", 0))
         assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel
+
+
+@pytest.mark.parametrize("degree", DEGREES)
+def test_films_of_polynomials_build_without_a_warning(degree: int, device: Device) -> None:
+    """Their coefficients and what reads them, in single precision and every lane width."""
+    for lanes in lane_widths(device, Precision.SINGLE):
+        coefficients = Build("layer_polynomials", Precision.SINGLE, lanes, (("DEGREE", degree),))
+        assert kernel_of(device, coefficients).function_name == "layer_polynomials"
+        for kernel, periodic in product(FILM_NUMBERS, (0, 1)):
+            switches = (
+                ("INCOHERENT", 0),
+                ("PERIODIC", periodic),
+                ("MEDIA", 4),
+                ("SIDES", 2),
+                ("DEGREE", degree),
+            )
+            build = Build(kernel, Precision.SINGLE, lanes, switches)
+            assert kernel_of(device, build).function_name == kernel
 
 
 @pytest.mark.parametrize("numbers", FACET_NUMBERS)

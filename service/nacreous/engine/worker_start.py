@@ -25,9 +25,8 @@ _FREE_STARTS = 3
 _MOST_PAUSE_S = 30.0
 _MIB = 2**20
 _ALLOCATION = {"MALLOC_MMAP_THRESHOLD_": str(32 * _MIB), "MALLOC_TRIM_THRESHOLD_": str(256 * _MIB)}
-"""For glibc: arrays of up to 32 MiB, its largest, come from memory that the worker keeps. Given back and
-asked for anew, their pages would be cleared for every step of every table, a fifth of the time of a small
-one."""
+"""For glibc: arrays of up to 32 MiB, its largest, lie in memory that the worker keeps. Given back and asked
+for anew, their pages would be cleared for every step of every table: a fifth of the time of a small one."""
 
 
 class WorkerStarter:

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side
-from nacreous.opencl.film_problem import upload
 from nacreous.opencl.microsurface import Microsurface, facet_rows, surface_arguments
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles, step_of
+from nacreous.opencl.upload import upload
 from nacreous.optics.facets import FacetRule, facet_quadrature, incident_azimuths
 
 __all__ = ["AlbedoProblem", "albedo_weights"]

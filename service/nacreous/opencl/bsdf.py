@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
+from nacreous.opencl.film_buffers import upload_colour_weights
 from nacreous.opencl.film_colour import Side
-from nacreous.opencl.film_problem import upload, upload_colour_weights
 from nacreous.opencl.microsurface import Microsurface, surface_arguments
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, Tile, TileRunner, empty_table, row_tiles
+from nacreous.opencl.upload import upload
 
 __all__ = ["BsdfProblem", "Pairs", "bsdf_colours", "bsdf_spectra"]
 

@@ -5,7 +5,8 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
-from nacreous.opencl.film_problem import FilmProblem, film_buffers
+from nacreous.opencl.film_buffers import film_buffers
+from nacreous.opencl.film_problem import FilmProblem
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, TileRunner, empty_tables, row_tiles
@@ -17,7 +18,7 @@ NAMES = ("R_s", "R_p", "T_s", "T_p")
 _MOST_PADDING = 1.25
 """Width of a row on the device, over that of the table, up to which it is kept as it is, padding and all."""
 
-GROUPS = {"cpu": (16, 4), "gpu": (32, 4), "other": (1, 1)}
+GROUPS = {"cpu": (1, 64), "gpu": (32, 4), "other": (1, 1)}
 """Work-group sizes (blocks of wavelengths, rows) by kind of device; PoCL compiles anew for each size."""
 
 
@@ -61,8 +62,8 @@ def spectral_rows(
         rows * wavelengths * len(names) * item,
     )
     lanes = lanes or device.lanes(precision)
-    kernel = kernel_of(device, Build(kernel_name, precision, lanes, problem.build_numbers))
     buffers = film_buffers(device, problem, precision, lanes)
+    kernel = kernel_of(device, Build(kernel_name, precision, lanes, buffers.build_numbers))
     columns = buffers.stride if buffers.stride <= _MOST_PADDING * wavelengths else wavelengths
     results = empty_tables(len(names), rows, columns, precision.dtype)
     runner = TileRunner(device, kernel, results, buffers.stride, GROUPS[device.info.kind])

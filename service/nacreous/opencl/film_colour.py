@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
-from nacreous.opencl.film_problem import FilmProblem, film_buffers, upload_colour_weights
+from nacreous.opencl.film_buffers import film_buffers, upload_colour_weights
+from nacreous.opencl.film_problem import FilmProblem
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, TileRunner, empty_table, row_tiles
@@ -53,9 +54,9 @@ def film_colours(
     texels = f"a colour table of {' x '.join(map(str, problem.shape[:2]))} texels"
     require(texels, problem.rows * columns * item)
     lanes = lanes or device.lanes(precision)
-    numbers = (*problem.build_numbers, ("SIDES", computed))
-    kernel = kernel_of(device, Build("film_colour", precision, lanes, numbers))
     buffers = film_buffers(device, problem, precision, lanes)
+    numbers = (*buffers.build_numbers, ("SIDES", computed))
+    kernel = kernel_of(device, Build("film_colour", precision, lanes, numbers))
     weights = upload_colour_weights(device, colour_weights, buffers.stride, precision.dtype)
     colours = empty_table(problem.rows, columns, precision.dtype)
     runner = TileRunner(device, kernel, (colours,), columns, _GROUPS[device.info.kind])

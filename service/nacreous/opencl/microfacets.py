@@ -5,11 +5,11 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
-from nacreous.opencl.film_problem import upload
 from nacreous.opencl.microsurface import Microsurface, surface_arguments
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import TileRunner, empty_table, row_tiles
+from nacreous.opencl.upload import upload
 
 __all__ = ["microfacets"]
 

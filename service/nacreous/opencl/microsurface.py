@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nacreous.opencl.device import Device
-from nacreous.opencl.film_problem import upload
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import TileRunner, empty_table, row_tiles
+from nacreous.opencl.upload import upload
 from nacreous.optics.facets import FacetRule, facet_quadrature, is_isotropic
 
 __all__ = ["Microsurface", "facet_rows", "microsurface", "surface_arguments"]

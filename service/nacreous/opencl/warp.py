@@ -5,10 +5,10 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.budget import require
 from nacreous.opencl.device import Device
-from nacreous.opencl.film_problem import upload
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.tiles import Observer, TileRunner, empty_tables, row_tiles
+from nacreous.opencl.upload import upload
 from nacreous.optics.square_density import SquareDensities
 
 __all__ = ["warped"]

@@ -1,0 +1,118 @@
+"""Thin layers as polynomials of the angle: the host of kernels/layer_polynomials.cl, and where they pay.
+
+C and S / kz of a layer are entire functions of kz^2, which is linear in mu^2. As functions of
+z^2 = (2 pi d / lambda)^2 kz^2 they run through an interval of half width h = (2 pi d n0 / lambda)^2 / 2.
+Interpolated at D + 1 Chebyshev nodes, cos(sqrt(z^2)) is off by at most h^(D+1) / ((2 D + 2)! 2^D), for its
+m-th derivative is at most m! / (2 m)!; where waves decay it is larger by that decay, which is divided out.
+"""
+
+import math
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from nacreous.opencl.device import Device
+from nacreous.opencl.film_problem import FilmProblem
+from nacreous.opencl.precision import Precision
+from nacreous.opencl.program import Build, kernel_of
+from nacreous.opencl.upload import upload
+
+__all__ = ["DEGREES", "layer_degree", "layer_polynomials", "node_mu2", "to_chebyshev", "to_powers"]
+
+DEGREES = (5, 8)
+"""Degrees that kernels are built for: few programs serve all films. Above the last, waves cost no more."""
+
+_TOLERANCE = 3e-8
+"""Half of the last digit of 1 in single precision."""
+
+_FEWEST_ANGLES = 48
+"""Fewer do not pay for the coefficients."""
+
+_MOST_DECAY = 1.0
+"""Difference of a layer's decay between grazing and normal incidence: what it divides out costs digits."""
+
+_MOST_NUMBERS = 2**24
+"""Coefficients of all layers: 64 MB, beyond which it takes as long to read as to compute."""
+
+
+def layer_degree(problem: FilmProblem, precision: Precision) -> int:
+    """Return the degree by which all layers are as exact as single precision; 0 where waves are better."""
+    thicknesses, wavelengths = problem.thickness_nm.size, problem.wavelength_nm.size
+    if precision is Precision.DOUBLE or problem.incoherent or problem.cos_theta.size < _FEWEST_ANGLES:
+        return 0
+    if thicknesses == 0 or _decay_range(problem) > _MOST_DECAY:
+        return 0
+    n0_over_lambda = float((problem.index[0].real / problem.wavelength_nm).max())
+    half_width = (2 * math.pi * float(problem.thickness_nm.max()) * n0_over_lambda) ** 2 / 2
+    degree = next((degree for degree in DEGREES if _truncation(half_width, degree) < _TOLERANCE), 0)
+    return degree if thicknesses * wavelengths * _runs(degree) <= _MOST_NUMBERS else 0
+
+
+def layer_polynomials(
+    device: Device, film: tuple[Any, ...], problem: FilmProblem, degree: int, precision: Precision, lanes: int
+) -> Any:  # noqa: ANN401 - pyopencl is untyped
+    """Return a buffer that is being filled with the coefficients of a problem's layers.
+
+    Parameters
+    ----------
+    film : tuple of buffers
+        Media, the medium of each layer, the incident medium and thicknesses, as film kernels take them.
+    """
+    import pyopencl as cl
+
+    thicknesses, layers = problem.thickness_nm.size, problem.thickness_nm.shape[-1]
+    blocks = -(-problem.wavelength_nm.size // lanes)
+    numbers = thicknesses * blocks * lanes * _runs(degree)
+    size = numbers * np.dtype(precision.dtype).itemsize
+    filled = cl.Buffer(device.context, cl.mem_flags.READ_WRITE, size)
+    tables = [upload(device, table(degree), precision.dtype) for table in (node_mu2, to_chebyshev, to_powers)]
+    counts = map(np.int32, (layers, blocks * lanes, thicknesses))
+    kernel = kernel_of(device, Build("layer_polynomials", precision, lanes, (("DEGREE", degree),)))
+    kernel.set_args(*film, *counts, *tables, filled)
+    cl.enqueue_nd_range_kernel(device.queue, kernel, (blocks, thicknesses), (1, 1))
+    return filled
+
+
+def _runs(degree: int) -> int:
+    """Numbers that a layer has for a wavelength: see kernels/polynomial_layer.clh."""
+    return 4 * (degree + 1) + 1
+
+
+def _decay_range(problem: FilmProblem) -> float:
+    """Largest 2 pi d (Im kz at mu = 0 - Im kz at mu = 1) / lambda of layers less dense than the outside."""
+    index, n0 = problem.index[1:-1], problem.index[0].real
+    rare = (index.real < n0).any(axis=1)
+    change = np.sqrt(index[rare] ** 2 - n0**2).imag - index[rare].imag  # (layers, L)
+    turns = problem.thickness_nm.max(axis=(0, 1))[rare, None] / problem.wavelength_nm
+    return float(2 * math.pi * (turns * change).max(initial=0))
+
+
+def _truncation(half_width: float, degree: int) -> float:
+    terms = degree + 1
+    return half_width**terms / (math.factorial(2 * terms) * 2.0**degree)
+
+
+def node_mu2(degree: int) -> NDArray[np.float64]:
+    """Chebyshev nodes of mu^2 on [0, 1], (D + 1,)."""
+    nodes: NDArray[np.float64] = (1 + chebyshev.chebpts1(degree + 1)) / 2
+    return nodes
+
+
+@cache
+def to_chebyshev(degree: int) -> NDArray[np.float64]:
+    """Return what takes values at the nodes to coefficients of Chebyshev polynomials, (order, node)."""
+    values = chebyshev.chebvander(chebyshev.chebpts1(degree + 1), degree)  # (node, order)
+    return np.linalg.inv(values).astype(np.float64)
+
+
+@cache
+def to_powers(degree: int) -> NDArray[np.float64]:
+    """Return what takes those to coefficients of powers of t = 2 mu^2 - 1, (power, order)."""
+    matrix = np.zeros((degree + 1, degree + 1))
+    for order, unit in enumerate(np.eye(degree + 1)):
+        powers = chebyshev.cheb2poly(unit)
+        matrix[: powers.size, order] = powers
+    return matrix
