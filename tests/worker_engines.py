@@ -4,17 +4,18 @@ import asyncio
 import os
 import sys
 from collections.abc import AsyncIterator, Callable, Coroutine
-from contextlib import asynccontextmanager
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
-from nacreous.engine.engine import Readiness
+from nacreous.engine.engine import Engine, Readiness
 from nacreous.engine.work import Product, Work
 from nacreous.engine.worker_engine import WorkerEngine, WorkerSettings
 from nacreous.formats.names import FormatName
 from nacreous.tables.spec import Spec
 
 Result = TypeVar("Result")
+Started = TypeVar("Started", bound=Engine)
 
 WORKERS = Path(__file__).parent / "faults" / "workers"
 """Workers that have a fault: each serves as the real one does, and computes as its name says."""
@@ -45,9 +46,8 @@ def faulty(name: str, *arguments: str, **settings: Any) -> WorkerSettings:  # no
 
 
 @asynccontextmanager
-async def running(settings: WorkerSettings | None = None) -> AsyncIterator[WorkerEngine]:
+async def started(engine: Started) -> AsyncIterator[Started]:
     """Start an engine, and stop it whatever happens."""
-    engine = WorkerEngine(settings)
     await engine.start()
     try:
         yield engine
@@ -55,10 +55,23 @@ async def running(settings: WorkerSettings | None = None) -> AsyncIterator[Worke
         await engine.stop()
 
 
+def running(settings: WorkerSettings | None = None) -> AbstractAsyncContextManager[WorkerEngine]:
+    """Run an engine with a worker of these settings."""
+    return started(WorkerEngine(settings))
+
+
 async def until(engine: WorkerEngine, *readiness: Readiness) -> None:
     """Return when the engine is as ready as asked; it computes nothing meanwhile."""
     while engine.state.readiness not in readiness:
         await asyncio.sleep(0.01)
+
+
+async def begun(engine: Engine, work: Work) -> "asyncio.Task[Product]":
+    """Ask for a work, and return what asks once it is in hand."""
+    told = asyncio.Event()
+    asking = asyncio.create_task(engine.compute(work, lambda _: told.set()))
+    await told.wait()
+    return asking
 
 
 async def at_first_progress(engine: WorkerEngine, work: Work, act: Callable[[], None]) -> Product:

@@ -3,6 +3,8 @@
 These errors know nothing of HTTP or of exit codes: the command line and the service each map them once.
 """
 
+import re
+
 __all__ = [
     "BudgetError",
     "BusyError",
@@ -17,7 +19,11 @@ __all__ = [
     "StoreError",
     "UnavailableError",
     "reason",
+    "without_user_info",
 ]
+
+_USER_INFO = re.compile(r"(?<=://)(?:[^/:@]*:(?!\d+(?:/|$)).*|[^/?#]*)@")
+"""Of an address, up to its last @, for a key of S3 may hold a slash; what a port follows is none."""
 
 
 class NacreousError(Exception):
@@ -116,3 +122,15 @@ class DeadlineError(NacreousError):
 def reason(error: Exception) -> str:
     """Return why something failed, without the number that the operating system gives it."""
     return getattr(error, "strerror", None) or str(error)
+
+
+def without_user_info(url: str, text: str | None = None) -> str:
+    """Return an address, or a text in which it may stand, without the name and the password before its host.
+
+    Addresses are in messages, messages in logs, and logs in many hands.
+
+    >>> without_user_info("s3://name:pass/word@bucket/prefix")
+    's3://…@bucket/prefix'
+    """
+    found = _USER_INFO.search(url)
+    return (text or url).replace(found[0], "…@") if found else text or url

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import spec_texts
 from answering_server import answering, json_answer, problem_answer
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS
@@ -15,34 +16,9 @@ from served import serving
 
 Run = Callable[..., subprocess.CompletedProcess[str]]
 
-FILM = """
-name = "A film & its \\"label\\""
-[stack]
-incident = "air"
-substrate = { n = 1.5 }
-[[stack.layers]]
-material = { n = 2.0 }
-thickness_nm = 420.0
-[table]
-cos_theta = 9
-wavelength_nm = { start = 380, stop = 780, step = 20 }
-"""
-ROUGH = """
-[stack]
-incident = "air"
-substrate = "main/Ag/Johnson"
-[[stack.layers]]
-material = { n = 2.0 }
-thickness_nm = 420.0
-[surface]
-alpha_x = 0.4
-[table]
-quantity = "bsdf"
-theta_i = 3
-theta_o = 3
-phi = 3
-wavelength_nm = { start = 380, stop = 780, step = 20 }
-"""
+COLOURED = "wavelength_nm = { start = 380, stop = 780, step = 20 }\n"
+FILM = f'name = "A film & its \\"label\\""\n{spec_texts.FILM}{COLOURED}'
+ROUGH = f"{spec_texts.ROUGH}{COLOURED}"
 KEY = "a-key-of-twenty-four-characters"
 SMOOTH = [name for name in FORMATS if "fresnel" in FORMATS[name].quantities]
 CASES = {
@@ -189,6 +165,15 @@ def test_a_service_out_of_reach_is_named_with_what_to_do(run: Run) -> None:
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (1, "", 1)
     assert f"cannot reach {address}: " in done.stderr
     assert "nacreous serve" in done.stderr
+
+
+@pytest.mark.parametrize("address", ["http://anna:s3cret@127.0.0.1:9", "htp://anna:s3cret@host"])
+def test_a_password_in_the_address_is_not_shown(run: Run, address: str) -> None:
+    """Neither where nothing answers there, nor where it is no address at all."""
+    done = run("--server", address, "tabulate", "soap-bubble")
+    assert done.returncode in {1, 2}
+    assert "…@" in done.stderr
+    assert "s3cret" not in done.stderr
 
 
 def test_another_program_at_the_address_is_told(run: Run) -> None:

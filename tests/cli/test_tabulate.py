@@ -13,35 +13,9 @@ import pytest
 
 from nacreous.formats.registry import FORMATS
 from nacreous.formats.verify import verify
+from spec_texts import FILM, ROUGH
 
 Run = Callable[..., subprocess.CompletedProcess[str]]
-
-FILM = """
-[stack]
-incident = "air"
-substrate = { n = 1.5 }
-[[stack.layers]]
-material = { n = 2.0 }
-thickness_nm = 420.0
-[table]
-cos_theta = 9
-"""
-
-ROUGH = """
-[stack]
-incident = "air"
-substrate = "main/Ag/Johnson"
-[[stack.layers]]
-material = { n = 2.0 }
-thickness_nm = 420.0
-[surface]
-alpha_x = 0.4
-[table]
-quantity = "bsdf"
-theta_i = 3
-theta_o = 3
-phi = 3
-"""
 
 
 def test_writes_an_exr_and_prints_its_path(run: Run, tmp_path: Path) -> None:

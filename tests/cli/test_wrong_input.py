@@ -6,25 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from spec_texts import LAYER, film, layer, table
+
 Run = Callable[..., subprocess.CompletedProcess[str]]
-
-STACK = '"stack": {"incident": "air", "substrate": {"n": 1.5}, "layers": [%s]}'
-LAYER = '{"material": {"n": 2.0}, "thickness_nm": 420}'
-
-
-def film(layers: str = LAYER, rest: str = "") -> str:
-    """Return a spec as JSON text, right but for what is put in."""
-    return "{" + STACK % layers + rest + "}"
-
-
-def layer(thickness: str = "420", material: str = '{"n": 2.0}', rest: str = "") -> str:
-    """Return a spec whose one layer is as given."""
-    return film(f'{{"material": {material}, "thickness_nm": {thickness}{rest}}}')
-
-
-def table(fields: str) -> str:
-    """Return a spec whose table is as given."""
-    return film(rest=f', "table": {{{fields}}}')
 
 
 def surface(fields: str, quantity: str = "albedo", rest: str = "") -> str:

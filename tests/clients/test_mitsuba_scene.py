@@ -135,14 +135,18 @@ def readme_block(language: str) -> str:
 
 
 def test_the_readme_s_python_runs(tmp_path: Path) -> None:
-    """Its first example, in a process of its own, after the command above it."""
+    """Its first example, in a process of its own, after the command above it, has a sphere of that film."""
     if fault := variant_fault("llvm_ad_spectral"):
         pytest.skip(fault)
     nacreous.write(
         nacreous.tabulate(nacreous.preset("anodised-titanium")), tmp_path / "anodised-titanium.spectral.exr"
     )
     environment = os.environ | {"PYTHONPATH": str(CLIENT)}
-    subprocess.run([sys.executable, "-c", readme_block("python")], check=True, cwd=tmp_path, env=environment)
+    program = readme_block("python") + "\nprint(mi.traverse(scene))"
+    done = subprocess.run(
+        [sys.executable, "-c", program], check=True, cwd=tmp_path, env=environment, capture_output=True
+    )
+    assert b"ball.bsdf.thickness_scale" in done.stdout
 
 
 def test_the_readme_s_xml_loads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

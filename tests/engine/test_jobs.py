@@ -86,6 +86,8 @@ def test_tables_that_cannot_be_made_are_named_and_the_rest_goes_on(tmp_path: Pat
             job = await _done(rooms, Sweep.from_document(document))
             assert (job.state, job.done, job.failed) == (JobState.DONE, 2, 1)
             assert [failure.spec for failure in job.failures] == [1]
+            works = [Sweep.from_document(document)[spec][0] for spec in job.specs]
+            assert (job.specs, job.tables) == ((0, 2), tuple(work.id for work in works))
             assert job.failures[0].message.startswith("stack.layers: expected fringes that")
             document["vary"] = {"stack.layers.0.thickness_nm": [TOO_THICK_NM]}
             job = await _done(rooms, Sweep.from_document(document))
@@ -238,6 +240,22 @@ def test_one_table_of_all_jobs_is_in_the_engines_queue(tmp_path: Path) -> None:
                 assert (await rooms.library.file(work)).payload
             jobs = [await ended(rooms.jobs, job_id) for job_id in ids]
             assert [job.state for job in jobs] == [JobState.DONE] * 3
+
+    asyncio.run(test())
+
+
+def test_a_table_of_a_job_has_the_deadline_of_jobs(tmp_path: Path) -> None:
+    """Nobody waits for it as for a request: the engine's own deadline, which no table keeps, is not its."""
+
+    async def test() -> None:
+        for limits, state in ((JobLimits(), JobState.DONE), (JobLimits(deadline_s=2e-9), JobState.FAILED)):
+            async with opened(
+                tmp_path / state, limits=limits, engine=InProcessEngine(deadline_s=1e-9)
+            ) as rooms:
+                await rooms.jobs.start()
+                job = await _done(rooms, small_sweep(1))
+                assert job.state is state
+                assert ("2e-09 s" in job.error) == (state is JobState.FAILED)
 
     asyncio.run(test())
 

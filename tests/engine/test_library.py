@@ -144,6 +144,7 @@ def test_a_store_that_cannot_be_reached_is_one_that_has_nothing(monkeypatch: pyt
         async with opened("s3://nowhere/store") as rooms:
             with pytest.raises(StoreError):
                 await rooms.library.record(small_work().id)
+            assert not await rooms.library.holds(small_work())
             assert (await rooms.library.file(small_work())).payload
             assert rooms.library.uncached == 1
 
@@ -256,6 +257,27 @@ def test_what_is_no_table_is_missing(tmp_path: Path) -> None:
                 with pytest.raises(MissingError):
                     await rooms.library.table_file(unknown, suffix)
             assert rooms.engine.computed == 0
+
+    asyncio.run(test())
+
+
+def test_what_is_held_need_not_be_computed(tmp_path: Path) -> None:
+    """In memory or in the store, a companion by its own name; a store that cannot be read holds nothing."""
+
+    async def test() -> None:
+        opaque = small_work(name="anodised-titanium")
+        async with opened(tmp_path) as rooms:
+            assert not await rooms.library.holds(small_work())
+            await rooms.library.keep(small_work())
+            await rooms.library.file(opaque)
+            assert [await rooms.library.holds(small_work(), each) for each in ("", COMPANION)] == [True, True]
+            assert [await rooms.library.holds(opaque, each) for each in ("", COMPANION)] == [True, False]
+            assert not await rooms.library.holds(small_work(FormatName.NPZ))
+            rooms.store.delete(file_key(opaque))
+            assert await rooms.library.holds(opaque)
+        async with opened(tmp_path) as rooms:
+            assert await rooms.library.holds(small_work(), COMPANION)
+            assert not await rooms.library.holds(opaque)
 
     asyncio.run(test())
 

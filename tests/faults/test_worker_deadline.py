@@ -11,7 +11,7 @@ import pytest
 from faults.soak import scale
 from nacreous.engine.engine import Readiness
 from nacreous.engine.worker_engine import WorkerEngine, WorkerSettings
-from nacreous.errors import DeadlineError
+from nacreous.errors import DeadlineError, UnavailableError
 from worker_engines import faulty, film_work, patiently, running, until
 
 DEADLINE_S = 1.0
@@ -52,6 +52,23 @@ def test_a_kernel_that_never_ends_is_ended() -> None:
                 assert (await engine.compute(film_work())).files
                 assert engine.restarts == number + 1
             assert engine.kernel_wipes == 0
+
+    patiently(hung())
+
+
+def test_a_work_that_costs_two_deadlines_is_refused() -> None:
+    """The third who asks for it hears so at once, for ten minutes; another work is done."""
+
+    async def hung() -> None:
+        async with running(faulty("endless", deadline_s=DEADLINE_S)) as engine:
+            for _ in range(2):
+                with pytest.raises(DeadlineError):
+                    await engine.compute(film_work(1001.0))
+            with pytest.raises(UnavailableError, match="ended its worker 2 times") as refused:
+                await engine.compute(film_work(1001.0))
+            assert refused.value.retry_after_s > 500
+            assert (await engine.compute(film_work())).files
+            assert engine.restarts == 2
 
     patiently(hung())
 

@@ -16,7 +16,16 @@ from nacreous.engine.engine import Readiness
 from nacreous.engine.work import compute
 from nacreous.engine.worker_engine import WorkerEngine
 from nacreous.errors import UnavailableError
-from worker_engines import at_first_progress, faulty, film_work, long_work, patiently, running, until
+from worker_engines import (
+    at_first_progress,
+    begun,
+    faulty,
+    film_work,
+    long_work,
+    patiently,
+    running,
+    until,
+)
 
 ORPHANED = """
 import asyncio, sys
@@ -127,9 +136,7 @@ def test_a_stop_waits_no_longer_than_its_grace() -> None:
 
     async def stopped() -> None:
         async with running(faulty("endless", grace_s=0.2)) as engine:
-            begun = asyncio.Event()
-            hung = asyncio.create_task(engine.compute(film_work(1001.0), lambda _: begun.set()))
-            await begun.wait()
+            hung = await begun(engine, film_work(1001.0))
             began_s = time.monotonic()
         assert time.monotonic() - began_s < scale(15, 3)
         with pytest.raises(UnavailableError):

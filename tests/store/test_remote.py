@@ -82,3 +82,20 @@ def test_says_what_to_install_for_s3() -> None:
     done = subprocess.run([sys.executable, "-c", WITHOUT], capture_output=True, text=True)
     assert "StoreError: the store s3://films needs a driver that is not installed" in done.stderr
     assert "pip install 'nacreous[s3]'" in done.stderr
+
+
+SECRET = "KEY:se/cret"  # noqa: S105 - nobody's
+
+
+@pytest.mark.usefixtures("s3_options")
+def test_a_password_in_the_url_is_in_no_message() -> None:
+    """Whatever goes wrong, and whoever says so: /readyz answers it to anybody."""
+    store = open_store(f"s3://{SECRET}@films/table")
+    for use in (store.get, store.has, lambda key: store.put(key, ENTRY), lambda _: store.check_writable()):
+        with pytest.raises(StoreError) as caught:
+            use(KEY)
+        assert "cret" not in str(caught.value)
+    for url, quota_bytes in ((f"s3://{SECRET}@films", 2**20), (f"nothing://{SECRET}@films", None)):
+        with pytest.raises(StoreError, match="…@films") as caught:
+            open_store(url, quota_bytes)
+        assert "cret" not in str(caught.value)

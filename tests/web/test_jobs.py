@@ -2,11 +2,12 @@
 
 import json
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from running_app import RunningApp
+from running_app import RunningApp, running_app, settings_for
 
 
 @pytest.fixture
@@ -67,6 +68,29 @@ def test_a_job_that_is_cancelled_stays_so(app: RunningApp, film: Mapping[str, An
     assert app.request("DELETE", links["self"]).json()["state"] == "cancelled"
     assert progress(app.get(links["events"]).text)[-1]["state"] == "cancelled"
     assert app.get(links["self"]).json()["done"] < 200
+
+
+def test_a_table_says_which_of_the_sweep_it_is(app: RunningApp, film: Mapping[str, Any]) -> None:
+    """By its place in the sweep, also where another table cannot be made and has none."""
+    too_thick_nm = 5e6
+    sweep = {"base": film, "vary": {"stack.layers.0.thickness_nm": [110, too_thick_nm, 120]}}
+    links = app.post("/v1/jobs", json=sweep).json()["links"]
+    app.get(links["events"])
+    job = app.get(links["self"]).json()
+    assert [table["spec"] for table in job["tables"]] == [0, 2]
+    assert [failure["spec"] for failure in job["failures"]] == [1]
+    spec = app.get(job["tables"][1]["links"]["self"]).json()["spec"]
+    assert spec["stack"]["layers"][0]["thickness_nm"] == 120
+    (second,) = app.get(f"{links['self']}?offset=1").json()["tables"]
+    assert second["spec"] == 2
+
+
+def test_a_table_of_a_job_has_its_own_time(tmp_path: Path, film: Mapping[str, Any]) -> None:
+    """NACREOUS_JOB_DEADLINE_SECONDS is what a table may take, and the job says so where it takes longer."""
+    with running_app(settings_for(tmp_path, job_deadline_seconds=2e-9)) as hurried:
+        links = hurried.post("/v1/jobs", json={"base": film}).json()["links"]
+        assert progress(hurried.get(links["events"]).text)[-1]["state"] == "failed"
+        assert "2e-09 s" in hurried.get(links["self"]).json()["error"]
 
 
 def test_head_of_events_ends(app: RunningApp, sweep: Mapping[str, Any]) -> None:

@@ -83,6 +83,41 @@ def test_a_preflight_needs_no_key(guarded: RunningApp) -> None:
     assert own.headers["access-control-allow-origin"] == "https://studio.example"
     other = guarded.request("OPTIONS", "/v1/presets", headers={"origin": "https://evil.example", **asked})
     assert other.status_code == 400
+    assert "access-control-allow-origin" not in other.headers
+
+
+@pytest.mark.parametrize(
+    ("asked", "wrong"),
+    [
+        ({"origin": "https://evil.example"}, "origin"),
+        ({"access-control-request-method": "PUT"}, "method"),
+        ({"access-control-request-headers": "authorization, x-secret"}, "headers"),
+    ],
+)
+def test_a_preflight_that_is_refused_is_a_problem(
+    guarded: RunningApp, asked: dict[str, str], wrong: str
+) -> None:
+    """As every error is (RFC 9457); it says which of the three may not be."""
+    allowed = {
+        "origin": "https://studio.example",
+        "access-control-request-method": "DELETE",
+        "access-control-request-headers": "authorization, content-type, if-none-match, range, if-range",
+    }
+    assert guarded.request("OPTIONS", "/v1/presets", headers=allowed).status_code == 200
+    answer = guarded.request("OPTIONS", "/v1/presets", headers={**allowed, **asked})
+    assert answer.status_code == answer.json()["status"] == 400
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert answer.headers["content-length"] == str(len(answer.content))
+    assert "origin" in answer.headers["vary"].lower()
+    assert answer.json()["type"] == "urn:nacreous:problem:cors"
+    assert answer.json()["detail"].endswith(f"got another {wrong}")
+
+
+def test_a_page_may_read_what_it_needs_to_go_on(guarded: RunningApp) -> None:
+    """Headers beyond the few that every page may read are named (Fetch, section 3.3.2)."""
+    headers = {"origin": "https://studio.example", "authorization": f"Bearer {KEYS[0]}"}
+    exposed = guarded.get("/v1/presets", headers=headers).headers["access-control-expose-headers"]
+    assert {"ETag", "Location", "Retry-After", "Content-Range", "X-Request-Id"} <= {*exposed.split(", ")}
 
 
 def test_a_page_of_the_origin_reads_errors_too(guarded: RunningApp) -> None:
@@ -93,7 +128,9 @@ def test_a_page_of_the_origin_reads_errors_too(guarded: RunningApp) -> None:
 
 
 def test_without_setting_no_origin_is_allowed(app: RunningApp) -> None:
-    """CORS is off unless it is configured."""
+    """CORS is off unless it is configured: a preflight is a method that the path does not have."""
     answer = app.get("/v1/presets", headers={"origin": "https://studio.example"})
     assert answer.status_code == 200
     assert "access-control-allow-origin" not in answer.headers
+    asked = {"origin": "https://studio.example", "access-control-request-method": "GET"}
+    assert app.request("OPTIONS", "/v1/presets", headers=asked).status_code == 405

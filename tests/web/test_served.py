@@ -1,6 +1,7 @@
 """What needs a real process and real sockets: curl, signals, slow clients and too many of them."""
 
 import asyncio
+import json
 import os
 import shutil
 import socket
@@ -246,6 +247,18 @@ def test_events_end_with_the_service(tmp_path: Path, film: Mapping[str, Any]) ->
     with serving(tmp_path / "store") as again, httpx.Client(base_url=again.url, timeout=60) as client:
         assert client.get(links["self"]).json()["state"] in {"queued", "running"}
         assert client.request("DELETE", links["self"]).json()["state"] == "cancelled"
+
+
+def test_a_misspelt_setting_is_named_in_the_log(tmp_path: Path) -> None:
+    """The service runs, and a warning has the variable and the one that was meant, never what it holds."""
+    with serving(tmp_path / "store", deadline_second="hush") as running:
+        assert running.url
+        lines = [json.loads(line) for line in running.lines]
+    (warning,) = [line for line in lines if line["event"] == "unknown setting"]
+    assert warning["level"] == "warning"
+    assert warning["variable"] == "NACREOUS_DEADLINE_SECOND"
+    assert warning["remedy"] == "did you mean NACREOUS_DEADLINE_SECONDS?"
+    assert "hush" not in running.log.read_text()
 
 
 def test_keys_that_are_refused_are_not_shown() -> None:

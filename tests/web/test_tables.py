@@ -14,17 +14,12 @@ from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS
 from nacreous.tables.spec import Spec
 from running_app import RunningApp, running_app, settings_for
+from spec_texts import STACK
 
-TOML = """
-[stack]
-incident = "air"
-substrate = { n = 1.5 }
-[[stack.layers]]
-material = { n = 2.0 }
-thickness_nm = 420
+TOML = f"""{STACK}
 [table]
 cos_theta = 8
-wavelength_nm = { start = 400, stop = 700, count = 16 }
+wavelength_nm = {{ start = 400, stop = 700, count = 16 }}
 """
 
 
@@ -71,6 +66,19 @@ def test_the_transmission_is_a_file_beside(app: RunningApp, table: Mapping[str, 
     assert app.get("/v1/presets/anodised-titanium.transmission.exr").status_code == 404
 
 
+def test_companions_are_linked_where_there_are_some(app: RunningApp, table: Mapping[str, Any]) -> None:
+    """What a film transmits has a picture in each format of pictures; an opaque one has no such link."""
+    names = {name for name in table["links"] if name.endswith("-transmission")}
+    assert names == {"exr-transmission", "spectral-exr-transmission", "png-transmission"}
+    for name in names:
+        pictured = FORMATS[FormatName(name.removesuffix("-transmission"))]
+        assert table["links"][name] == f"/v1/tables/{table['id']}.transmission{pictured.suffix}"
+        assert app.get(table["links"][name]).headers["content-type"] == pictured.media_type
+    opaque = app.get("/v1/presets/anodised-titanium").json()["links"]
+    assert "exr" in opaque
+    assert not [name for name in opaque if name.endswith("-transmission")]
+
+
 def test_what_is_known_of_a_table(app: RunningApp, table: Mapping[str, Any]) -> None:
     """GET of the id has the complete spec, which makes the same table again."""
     known = app.get(table["links"]["self"]).json()
@@ -109,3 +117,14 @@ def test_what_takes_long_becomes_a_job(tmp_path: Path, film: Mapping[str, Any]) 
         assert '"state":"done"' in events.text
         assert slow.get(f"{links['table']}.exr").status_code == 200
         assert slow.post("/v1/tables", json=film).status_code == 200
+
+
+def test_a_file_that_takes_too_long_is_made_by_a_job(tmp_path: Path, film: Mapping[str, Any]) -> None:
+    """202 where a request could not wait for it, of a table and of a preset; 200 once it is there."""
+    with running_app(settings_for(tmp_path, deadline_seconds=1e-6)) as hurried:
+        known = hurried.post("/v1/tables", json=film).json()["id"]
+        for url in (f"/v1/tables/{known}.npz", "/v1/presets/coated-lens.npz"):
+            answer = hurried.get(url)
+            assert answer.status_code == 202
+            assert '"state":"done"' in hurried.get(f"{answer.headers['location']}/events").text
+            assert hurried.get(url).status_code == 200

@@ -9,7 +9,7 @@ from typing import Self, TypeVar
 
 import httpx
 
-from nacreous_client.errors import UnreachableError
+from nacreous_client.errors import UnreachableError, without_user_info
 from nacreous_client.operations import Operations
 from nacreous_client.retry import Retry
 from nacreous_client.steps import CONTENT, AwaitedRunner, BlockingRunner, Pause, Reply, Request, Steps
@@ -149,6 +149,7 @@ def _failure(error: Exception, address: str) -> Exception:
         return error
     reason = str(error) or type(error).__name__
     unreached = isinstance(error, (httpx.ConnectError, httpx.ConnectTimeout))
+    place = without_user_info(address)
     return UnreachableError(
-        address, f"cannot reach {address}: {reason}" if unreached else f"{address} broke off: {reason}"
+        address, f"cannot reach {place}: {reason}" if unreached else f"{place} broke off: {reason}"
     )

@@ -4,6 +4,7 @@ The service says what is wrong as problem details (RFC 9457); each status has a 
 wrong arrives in the words in which the service found it so: field, expected, got, remedy.
 """
 
+import re
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
@@ -24,7 +25,11 @@ __all__ = [
     "UnavailableError",
     "UnreachableError",
     "problem_error",
+    "without_user_info",
 ]
+
+_USER_INFO = re.compile(r"(?<=://)(?:[^/:@]*:(?!\d+(?:/|$)).*|[^/?#]*)@")
+"""Of an address, up to its last @, for a password may hold a slash; what a port follows is none."""
 
 
 class ServiceError(Exception):
@@ -152,3 +157,8 @@ _OF_STATUS: Mapping[int, type[ProblemError]] = MappingProxyType(
 def problem_error(status: int, document: Mapping[str, Any], retry_after_s: float = 0.0) -> ProblemError:
     """Return the error of a status; `ProblemError` itself for one without a class of its own."""
     return _OF_STATUS.get(status, ProblemError)(status, document, retry_after_s)
+
+
+def without_user_info(address: str) -> str:
+    """Return an address as a message shows it: without the name and the password before its host."""
+    return _USER_INFO.sub("…@", address)

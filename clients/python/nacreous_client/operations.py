@@ -11,7 +11,7 @@ import httpx
 
 from nacreous_client.answers import Job, Material, Preset, Table, parsed
 from nacreous_client.download import Download, Listeners, Received, download
-from nacreous_client.errors import AddressError
+from nacreous_client.errors import AddressError, without_user_info
 from nacreous_client.exchange import asked, exchange, posted
 from nacreous_client.jobs import Progress, found, job_path, succeeded, waited
 from nacreous_client.retry import Retry
@@ -204,7 +204,8 @@ def _checked_address(url: str) -> str:
     except (httpx.InvalidURL, TypeError):
         parts = httpx.URL("")
     if parts.scheme not in {"http", "https"} or not parts.host or parts.query or parts.fragment:
-        raise AddressError(f"expected an address such as http://localhost:8000, got {url!r}")
+        got = without_user_info(str(url))
+        raise AddressError(f"expected an address such as http://localhost:8000, got {got!r}")
     return url.rstrip("/")
 
 

@@ -21,6 +21,7 @@ from nacreous.cli.written import Written, by_sampling, warning
 from nacreous.formats import materialx
 from nacreous.formats.atlas import LAYOUTS
 from nacreous.formats.atomic import replacing
+from nacreous.formats.companion import TRANSMISSION
 from nacreous.formats.lookup import is_of
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS, Format
@@ -29,7 +30,6 @@ from nacreous.tables.spec import Spec
 
 __all__ = ["fetched_files"]
 
-_TRANSMISSION = ".transmission"
 _TEXTURES: Mapping[FormatName, FormatName] = MappingProxyType(
     {
         FormatName.EXR: FormatName.EXR,
@@ -76,7 +76,7 @@ def _files_of(client: Client, table: Table, chosen: Format, here: Path) -> tuple
     if texture := _TEXTURES.get(chosen.name):
         suffix = FORMATS[texture].suffix
         wanted = [] if texture is chosen.name else [suffix]
-        found += [_brought_file(client, table, each, here) for each in (*wanted, f"{_TRANSMISSION}{suffix}")]
+        found += [_brought_file(client, table, each, here) for each in (*wanted, f"{TRANSMISSION}{suffix}")]
     files = tuple(path for path in found if path is not None)
     if chosen.name is FormatName.MATERIALX:
         materialx.rename_textures(files[0], files[1:])
@@ -92,7 +92,7 @@ def _brought_file(client: Client, table: Table, suffix: str, here: Path) -> Path
         try:
             client.download(table.id, suffix, path, _of_bytes(observer), _of_job(observer))
         except MissingError:
-            if not suffix.startswith(_TRANSMISSION):
+            if not suffix.startswith(TRANSMISSION):
                 raise
             return None
     return path
@@ -127,7 +127,7 @@ def _obsolete(spec: Spec, chosen: Format, paths: Sequence[Path], stem: Path) -> 
     if chosen.name not in _TEXTURES:
         return ()
     texture = FORMATS[_TEXTURES[chosen.name]]
-    companion = stem.with_name(f"{stem.name}{_TRANSMISSION}{texture.suffix}")
+    companion = stem.with_name(f"{stem.name}{TRANSMISSION}{texture.suffix}")
     _, transmitted = LAYOUTS[spec.table.quantity].names
     return (companion,) if companion not in paths and is_of(transmitted, companion, texture.read) else ()
 

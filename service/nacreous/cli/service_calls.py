@@ -35,7 +35,9 @@ def _translated(error: ServiceError, server: Server) -> errors.NacreousError:
     match error:
         case AddressError() if "address" in str(error):
             return errors.SpecError(
-                "--server", "an address such as http://localhost:8000", shown(server.address)
+                "--server",
+                "an address such as http://localhost:8000",
+                shown(errors.without_user_info(server.address)),
             )
         case AddressError():
             return errors.SpecError("NACREOUS_SERVER_KEY", "a key of visible ASCII characters", "others")

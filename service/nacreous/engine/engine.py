@@ -35,6 +35,26 @@ class Engine(Protocol):
         """Whether work is taken now, and why not."""
         ...
 
+    @property
+    def queued(self) -> int:
+        """Works that wait."""
+        ...
+
+    @property
+    def busy(self) -> int:
+        """Works in hand."""
+        ...
+
+    @property
+    def computed(self) -> int:
+        """Works done."""
+        ...
+
+    @property
+    def restarts(self) -> int:
+        """Workers that have been replaced."""
+        ...
+
     async def start(self) -> None:
         """Begin to make the engine ready, and return at once; `state` says what became of it."""
         ...

@@ -4,12 +4,15 @@ import re
 from collections.abc import Mapping
 from importlib.metadata import version
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from nacreous.engine.work import File, Product, Work
 from nacreous.errors import MissingError
+from nacreous.formats.companion import ACCOMPANIED, TRANSMISSION
 from nacreous.formats.names import FormatName
 from nacreous.formats.registry import FORMATS, Format, format_of
+from nacreous.optics.value import shown
 from nacreous.store.entry import Entry
 from nacreous.tables.axes import wavelength_values_nm
 from nacreous.tables.colour import has_colour
@@ -17,6 +20,7 @@ from nacreous.tables.spec import LABELS, Spec
 
 __all__ = [
     "RECORD_SUFFIX",
+    "SUFFIXES",
     "check_table_id",
     "default_format",
     "entries_of",
@@ -30,7 +34,16 @@ RECORD_SUFFIX = ".spec"
 """What the key of a table's record ends in: its spec, and its certificate among the facts."""
 
 _TABLE_ID = re.compile("[0-9a-f]{64}")
-_COMPANION = ".transmission"
+_DOCUMENT = FORMATS[FormatName.MATERIALX].suffix
+
+_BY_SUFFIX: Mapping[str, Format] = MappingProxyType(
+    {
+        **{entry.suffix: entry for entry in FORMATS.values()},
+        **{f"{TRANSMISSION}{entry.suffix}": entry for name, entry in FORMATS.items() if name in ACCOMPANIED},
+    }
+)
+SUFFIXES = tuple(_BY_SUFFIX)
+"""What the name of a table's file may end in."""
 
 
 def default_format(spec: Spec) -> FormatName:
@@ -61,11 +74,12 @@ def file_key(work: Work, suffix: str = "") -> str:
 
 
 def format_of_suffix(suffix: str) -> Format:
-    """Return the format that writes files of this suffix, a companion's included; raises `MissingError`."""
-    for entry in FORMATS.values():
-        if suffix in (entry.suffix, f"{_COMPANION}{entry.suffix}"):
-            return entry
-    raise MissingError(f"there is no format whose files end in {suffix[:60]!a}")
+    """Return the format that writes files of this suffix; raises `MissingError` with those that there are."""
+    try:
+        return _BY_SUFFIX[suffix]
+    except KeyError:
+        known = ", ".join(SUFFIXES)
+        raise MissingError(f"expected a file name that ends in {known}, got {shown(suffix)}") from None
 
 
 def entries_of(work: Work, product: Product) -> Mapping[str, Entry]:
@@ -103,6 +117,3 @@ def record_entry(spec: Spec, table_id: str, certificate: Mapping[str, Any]) -> E
         "version": version("nacreous"),
     }
     return Entry(facts, spec.model_dump_json(exclude=set(LABELS)).encode())
-
-
-_DOCUMENT = FORMATS[FormatName.MATERIALX].suffix

@@ -10,7 +10,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 from nacreous.engine.engine import EngineState, Readiness
-from nacreous.engine.turns import Turns
+from nacreous.engine.queued import QueuedEngine
 from nacreous.engine.work import Product, Work, compute
 from nacreous.errors import DeadlineError, DeviceError, UnavailableError
 from nacreous.opencl.device import open_device
@@ -23,8 +23,8 @@ _STARTING = EngineState(Readiness.STARTING, "the device is being opened")
 _STOPPED = EngineState(Readiness.STOPPED, "the engine does not run")
 
 
-class InProcessEngine:
-    """Computes in a thread of its own; see `nacreous.engine.engine.Engine`.
+class InProcessEngine(QueuedEngine):
+    """Computes in a thread of its own, which is never replaced; see `nacreous.engine.engine.Engine`.
 
     Parameters
     ----------
@@ -38,27 +38,14 @@ class InProcessEngine:
     Attributes
     ----------
     state : EngineState
-    computed, restarts : int
-        Works done, and 0: a thread is not replaced.
     """
 
     def __init__(self, deadline_s: float = 60.0, queue_length: int = 64, grace_s: float = 15.0) -> None:
+        super().__init__(queue_length)
         self._deadline_s, self._grace_s = deadline_s, grace_s
-        self._turns = Turns(queue_length)
         self._thread: ThreadPoolExecutor | None = None
         self._given_up = threading.Event()
         self.state = _STOPPED
-        self.computed = self.restarts = 0
-
-    @property
-    def queued(self) -> int:
-        """Works that wait."""
-        return self._turns.queued
-
-    @property
-    def busy(self) -> int:
-        """Works in hand: 0 or 1."""
-        return self._turns.busy
 
     async def start(self) -> None:
         """Begin to open the device, and return at once; works asked for meanwhile wait for it."""
@@ -88,7 +75,7 @@ class InProcessEngine:
         self, work: Work, observer: Observer | None = None, deadline_s: float | None = None
     ) -> Product:
         """Return what comes of the work; the observer is called from the event loop. See `Engine.compute`."""
-        if self._thread is None:
+        if self.state is _STOPPED:
             raise self._unavailable()
         tell = _in_loop(observer)
         within_s = deadline_s or self._deadline_s

@@ -10,7 +10,7 @@ from contextlib import suppress
 
 from nacreous.engine.engine import EngineState, Readiness
 from nacreous.engine.poison import Poison
-from nacreous.engine.turns import Turns
+from nacreous.engine.queued import QueuedEngine
 from nacreous.engine.work import Product, Work
 from nacreous.engine.worker_process import WorkerFaultError, WorkerLostError, WorkerProcess
 from nacreous.engine.worker_settings import WorkerSettings
@@ -37,7 +37,7 @@ _REPLACED = EngineState(Readiness.STARTING, "the worker is being replaced")
 _log = logging.getLogger(__name__)
 
 
-class WorkerEngine:
+class WorkerEngine(QueuedEngine):
     """Computes in a worker process, one work after the other; see `nacreous.engine.engine.Engine`.
 
     Parameters
@@ -47,13 +47,11 @@ class WorkerEngine:
     Attributes
     ----------
     state : EngineState
-    computed, restarts : int
-        Works done, and workers that have been replaced.
     """
 
     def __init__(self, settings: WorkerSettings | None = None) -> None:
         self._settings = settings or WorkerSettings()
-        self._turns = Turns(self._settings.queue_length)
+        super().__init__(self._settings.queue_length)
         self._poison = Poison(self._settings.refused_s)
         self._starter = WorkerStarter(self._settings)
         self._worker: WorkerProcess | None = None
@@ -61,17 +59,6 @@ class WorkerEngine:
         self._changed = asyncio.Event()
         self._losses = 0
         self.state = _STOPPED
-        self.computed = self.restarts = 0
-
-    @property
-    def queued(self) -> int:
-        """Works that wait."""
-        return self._turns.queued
-
-    @property
-    def busy(self) -> int:
-        """Works in hand: 0 or 1."""
-        return self._turns.busy
 
     @property
     def kernel_wipes(self) -> int:

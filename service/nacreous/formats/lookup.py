@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from nacreous.errors import FileFormatError
 from nacreous.formats.atlas import LAYOUTS, table_atlas
+from nacreous.formats.companion import TRANSMISSION
 from nacreous.formats.contents import Contents, labelled
 from nacreous.tables.spec import ColourSpec
 from nacreous.tables.table import Table
@@ -51,7 +52,7 @@ def lookup_files(
     """
     stem, end = _split(path.name, suffix)
     reflected, transmitted = LAYOUTS[table.spec.table.quantity].names
-    files = {reflected: path, transmitted: path.with_name(f"{stem}.transmission{end}")}
+    files = {reflected: path, transmitted: path.with_name(f"{stem}{TRANSMISSION}{end}")}
     obsolete = [file for name, file in files.items() if name not in names and is_of(name, file, read)]
     return {name: files[name] for name in names}, tuple(obsolete)
 

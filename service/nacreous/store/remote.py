@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, cast
 
 import fsspec  # type: ignore[import-untyped] # it ships no types
 
-from nacreous.errors import StoreError
+from nacreous.errors import StoreError, without_user_info
 from nacreous.store.keys import QUARANTINE, is_key
 from nacreous.store.quota import counted_bytes
 
@@ -48,17 +48,18 @@ class RemoteObjects:
     """Nothing is ever evicted."""
 
     def __init__(self, url: str) -> None:
+        self._url = url
         self._files, self._root = _opened(url)
 
     def read(self, key: str) -> bytes | None:
         """Return an object; None where there is none."""
-        with _explained(f"{key} cannot be read from the store"), suppress(FileNotFoundError):
+        with self._explained(f"{key} cannot be read from the store"), suppress(FileNotFoundError):
             return cast("bytes", self._files.cat_file(self._path(key)))
         return None
 
     def write(self, key: str, stored: bytes) -> None:
         """Put an object in place of what is there, in one step."""
-        with _explained(f"{key} cannot be kept in the store"):
+        with self._explained(f"{key} cannot be kept in the store"):
             self._files.pipe_file(self._path(key), stored)
 
     def set_aside(self, key: str, damaged: bytes) -> None:
@@ -70,12 +71,12 @@ class RemoteObjects:
 
     def delete(self, key: str) -> None:
         """Remove an object, where there is one."""
-        with _explained(f"{key} cannot be removed from the store"), suppress(FileNotFoundError):
+        with self._explained(f"{key} cannot be removed from the store"), suppress(FileNotFoundError):
             self._files.rm_file(self._path(key))
 
     def has(self, key: str) -> bool:
         """Return whether there is such an object, without reading it."""
-        with _explained(f"{key} cannot be looked for in the store"), suppress(FileNotFoundError):
+        with self._explained(f"{key} cannot be looked for in the store"), suppress(FileNotFoundError):
             self._files.invalidate_cache()  # of listings, which other machines have changed since
             return bool(self._files.info(self._path(key))["type"] == "file")
         return False
@@ -89,7 +90,7 @@ class RemoteObjects:
     def check_writable(self) -> None:
         """Write a hidden object and remove it again."""
         probe = f".nacreous-{secrets.token_hex(8)}.part"
-        with _explained(f"the store {self._root} cannot be written"):
+        with self._explained(f"the store {self._root} cannot be written"):
             self._files.pipe_file(self._path(probe), b"probe")
             self._files.rm_file(self._path(probe))
 
@@ -99,7 +100,7 @@ class RemoteObjects:
 
     def _sizes(self, folder: str) -> dict[str, int]:
         """Return the size in bytes of each object below a folder."""
-        with _explained("the store cannot be listed"), suppress(FileNotFoundError):
+        with self._explained("the store cannot be listed"), suppress(FileNotFoundError):
             self._files.invalidate_cache()
             found = self._files.find(self._path(folder).rstrip("/"), detail=True).items()
             # S3's driver lists a prefix itself where its first object comes while it is being listed.
@@ -110,6 +111,14 @@ class RemoteObjects:
     def _path(self, key: str) -> str:
         return f"{self._root}/{key}"
 
+    @contextmanager
+    def _explained(self, failure: str) -> Iterator[None]:
+        """Say what has failed where a driver says only why, and not with which password."""
+        try:
+            yield
+        except Exception as error:  # every driver has errors of its own
+            raise StoreError(without_user_info(self._url, f"{failure}: {error}")) from error
+
 
 def _opened(url: str) -> "tuple[AbstractFileSystem, str]":
     try:
@@ -117,18 +126,9 @@ def _opened(url: str) -> "tuple[AbstractFileSystem, str]":
     except ImportError as error:
         extra = _EXTRAS.get(url.partition("://")[0])
         hint = f": pip install 'nacreous[{extra}]'" if extra else ""
-        raise StoreError(f"the store {url} needs a driver that is not installed: {error}{hint}") from error
+        fault = f"the store {url} needs a driver that is not installed: {error}{hint}"
+        raise StoreError(without_user_info(url, fault)) from error
     except ValueError as error:
-        raise StoreError(
-            f"expected a folder or a URL that fsspec knows for the store, got {url}: {error}"
-        ) from error
+        fault = f"expected a folder or a URL that fsspec knows for the store, got {url}: {error}"
+        raise StoreError(without_user_info(url, fault)) from error
     return files, root.rstrip("/")
-
-
-@contextmanager
-def _explained(failure: str) -> Iterator[None]:
-    """Say what has failed where a driver says only why."""
-    try:
-        yield
-    except Exception as error:  # every driver has errors of its own
-        raise StoreError(f"{failure}: {error}") from error

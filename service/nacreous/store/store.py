@@ -6,7 +6,7 @@ from threading import Lock
 
 from fsspec.core import split_protocol  # type: ignore[import-untyped] # it ships no types
 
-from nacreous.errors import StoreError
+from nacreous.errors import StoreError, without_user_info
 from nacreous.store.entry import Entry
 from nacreous.store.folder import FolderObjects
 from nacreous.store.keys import check_key, check_prefix
@@ -143,7 +143,8 @@ def open_store(url: str, quota_bytes: int | None = None) -> Store:
     if is_folder(url):
         return Store(FolderObjects(Path(path).expanduser(), quota_bytes))
     if quota_bytes is not None:
+        place = without_user_info(url)
         raise StoreError(
-            f"expected no quota for {url}: only a local folder has one, a bucket has rules of its own"
+            f"expected no quota for {place}: only a local folder has one, a bucket has rules of its own"
         )
     return Store(RemoteObjects(url))

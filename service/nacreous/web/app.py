@@ -7,7 +7,6 @@ from http import HTTPStatus
 from fastapi import FastAPI
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
-from starlette.middleware.cors import CORSMiddleware
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Match
@@ -17,6 +16,7 @@ import nacreous
 from nacreous.engine.engine import Engine
 from nacreous.opencl.budget import byte_budget
 from nacreous.optics.value import shown
+from nacreous.web.cors import Cors
 from nacreous.web.engines import worker_engine
 from nacreous.web.hot_files import HotFiles
 from nacreous.web.keys import Keys
@@ -34,11 +34,6 @@ __all__ = ["create_app"]
 _DESCRIPTION = """\
 Tabulated BSDFs of thin-film interference: a spec becomes a table, and a table becomes files that renderers
 load. Errors are problem+json (RFC 9457). Every GET is answered to HEAD as well."""
-
-_EXPOSED = (
-    *("ETag", "Location", "Retry-After", "X-Request-Id"),
-    *("Content-Disposition", "Content-Range", "Accept-Ranges"),
-)
 
 _ROUTERS = (tables.router, presets.router, materials.router, jobs.router, operations.router, page.router)
 
@@ -74,7 +69,7 @@ def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
     app.router.routes.extend(docs_routes(app.openapi_url or ""))
     app.add_exception_handler(HTTPException, _http_problem)
     app.add_exception_handler(RequestValidationError, _validation_problem)
-    app.add_middleware(Problems)  # within what FastAPI would answer 500 with
+    app.add_middleware(Problems)  # FastAPI answers 500 where an error leaves it; `_layers` has its own errors
     app.state.layers = _layers(app, service)
     use_openapi(app)
     return app
@@ -114,13 +109,7 @@ def _layers(app: _Layered, service: Service) -> ASGIApp:
         layers = Keys(layers, settings.keys)
     layers = Problems(layers)
     if settings.cors_origins:
-        layers = CORSMiddleware(
-            layers,
-            allow_origins=settings.cors_origins,
-            allow_methods=["GET", "HEAD", "POST", "DELETE"],
-            allow_headers=["Authorization", "Content-Type", "If-None-Match", "Range", "If-Range"],
-            expose_headers=[*_EXPOSED],
-        )
+        layers = Cors(layers, settings.cors_origins)
     return Observed(layers, service.metrics)
 
 

@@ -5,26 +5,15 @@ import asyncio
 from starlette.responses import Response
 from starlette.types import Scope
 
-from nacreous.errors import MissingError
 from nacreous.formats.names import FormatName
-from nacreous.formats.registry import FORMATS, Format
-from nacreous.optics.value import shown
+from nacreous.formats.registry import Format
 from nacreous.store.entry import Entry
 from nacreous.web.caching import FileResponse, Representation, compressed
-from nacreous.web.links import TRANSMISSION
 
-__all__ = ["COMPRESSED", "SUFFIXES", "file_response", "format_of_suffix", "representation", "split_file_name"]
+__all__ = ["COMPRESSED", "file_response", "representation", "split_file_name"]
 
 COMPRESSED = frozenset({FormatName.CSV, FormatName.MATERIALX, FormatName.GLTF})
 """Formats of text; all others are compressed already, or do not become smaller."""
-
-_COMPANIONS = (FormatName.EXR, FormatName.SPECTRAL_EXR, FormatName.PNG)
-_BY_SUFFIX = {entry.suffix: entry for entry in FORMATS.values()}
-_BY_SUFFIX |= {f"{TRANSMISSION}{FORMATS[name].suffix}": FORMATS[name] for name in _COMPANIONS}
-
-
-SUFFIXES = tuple(suffix.removeprefix(".") for suffix in _BY_SUFFIX)
-"""What the name of a file may end in."""
 
 
 def split_file_name(name: str) -> tuple[str, str]:
@@ -36,15 +25,6 @@ def split_file_name(name: str) -> tuple[str, str]:
     folder, slash, last = name.rpartition("/")
     stem, dot, suffix = last.partition(".")
     return f"{folder}{slash}{stem}", f"{dot}{suffix}"
-
-
-def format_of_suffix(suffix: str) -> Format:
-    """Return the format of files with this suffix; raises `MissingError` with those that there are."""
-    try:
-        return _BY_SUFFIX[suffix]
-    except KeyError:
-        known = ", ".join(_BY_SUFFIX)
-        raise MissingError(f"expected a file name that ends in {known}, got {shown(suffix)}") from None
 
 
 def representation(entry: Entry, stem: str, suffix: str, cache_control: bytes) -> Representation:

@@ -7,9 +7,10 @@ import re
 
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from nacreous.engine.files import format_of_suffix
 from nacreous.engine.library import Library
 from nacreous.web.caching import FileResponse
-from nacreous.web.files import COMPRESSED, format_of_suffix, representation
+from nacreous.web.files import COMPRESSED, representation
 from nacreous.web.observation import TEMPLATE
 
 __all__ = ["TABLE_FILE", "HotFiles"]

@@ -6,21 +6,14 @@ from urllib.parse import quote
 
 from nacreous.engine.jobs import Job
 from nacreous.errors import SpecError
-from nacreous.formats.names import FormatName
+from nacreous.formats.companion import ACCOMPANIED, TRANSMISSION
 from nacreous.formats.registry import FORMATS, Format, check_holds
 from nacreous.optics.stack import sample_stack
 from nacreous.tables.axes import wavelength_values_nm
 from nacreous.tables.solver import TRANSMITTING_K
 from nacreous.tables.spec import Spec
 
-__all__ = ["TRANSMISSION", "holding_formats", "job_links", "preset_links", "table_links"]
-
-TRANSMISSION = ".transmission"
-"""What the name of a companion has before its suffix: the transmitted part of a picture."""
-
-
-_COMPANIONS = frozenset({FormatName.EXR.value, FormatName.SPECTRAL_EXR.value, FormatName.PNG.value})
-"""Formats that have the transmitted part in a file of its own."""
+__all__ = ["holding_formats", "job_links", "preset_links", "table_links"]
 
 
 def holding_formats(spec: Spec) -> Iterator[Format]:
@@ -37,7 +30,7 @@ def holding_formats(spec: Spec) -> Iterator[Format]:
 def _files(spec: Spec) -> tuple[tuple[str, str], ...]:
     files = [(entry.name.value, entry.suffix) for entry in holding_formats(spec)]
     if _transmits(spec):
-        files += [(f"{name}-transmission", TRANSMISSION + end) for name, end in files if name in _COMPANIONS]
+        files += [(f"{name}-transmission", TRANSMISSION + end) for name, end in files if name in ACCOMPANIED]
     return tuple(files)
 
 

@@ -97,12 +97,10 @@ class ServiceCollector(Collector):
         for readiness in Readiness:
             state.add_metric([readiness.value], float(engine.state.readiness is readiness))
         yield state
-        counters = {"restarts": "Workers replaced.", "computed": "Works computed."}
-        for name, meaning in counters.items():
-            yield CounterMetricFamily(f"nacreous_engine_{name}", meaning, value=getattr(engine, name, 0))
-        gauges = {"queued": "Works that wait.", "busy": "Works being computed."}
-        for name, meaning in gauges.items():
-            yield GaugeMetricFamily(f"nacreous_engine_{name}", meaning, value=float(getattr(engine, name, 0)))
+        yield CounterMetricFamily("nacreous_engine_restarts", "Workers replaced.", value=engine.restarts)
+        yield CounterMetricFamily("nacreous_engine_computed", "Works computed.", value=engine.computed)
+        yield GaugeMetricFamily("nacreous_engine_queued", "Works that wait.", value=engine.queued)
+        yield GaugeMetricFamily("nacreous_engine_busy", "Works being computed.", value=engine.busy)
 
     def _store(self) -> Iterator[Metric]:
         store = self._service.store

@@ -12,7 +12,7 @@ from nacreous.optics.value import did_you_mean, shown
 from nacreous.tables.presets import preset, preset_names
 from nacreous.tables.spec import Spec
 from nacreous.tables.spec_document import Document
-from nacreous.web.sizes import check_size
+from nacreous.web.admission import admit
 
 __all__ = ["PresetWork", "check_preset", "preset_work"]
 
@@ -65,7 +65,7 @@ def preset_work(name: str, format_name: FormatName, thickness_scale: str = "") -
     """
     check_preset(name)
     work = Work(_scaled(name, thickness_scale), format_name, name.replace("/", "-"))
-    check_size(work)
+    admit(work)
     return PresetWork(work, estimated_seconds(work))
 
 

@@ -8,6 +8,7 @@ exit code 0. A second signal waits no longer.
 import asyncio
 import gc
 import logging
+import os
 import signal
 import socket
 from collections.abc import Iterator
@@ -18,6 +19,7 @@ from uvicorn import Config, Server
 from nacreous.web.app import create_app
 from nacreous.web.connections import connection_type
 from nacreous.web.engines import GRACE_SECONDS
+from nacreous.web.environment import unknown_variables
 from nacreous.web.logs import configure
 from nacreous.web.service import Service
 from nacreous.web.settings import Settings
@@ -97,6 +99,8 @@ def server_of(settings: Settings) -> GracefulServer:
 def serve(settings: Settings) -> None:
     """Run the service until it is told to stop; raises `OSError` where it cannot listen."""
     configure(settings.log_level)
+    for name, remedy in unknown_variables(os.environ):
+        _logger.warning("unknown setting", extra={"facts": {"variable": name, "remedy": remedy}})
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     with socket.create_server((settings.host, settings.port), family=family, backlog=_BACKLOG) as listening:
         host, port = listening.getsockname()[:2]

@@ -11,19 +11,19 @@ from fastapi import APIRouter, Path
 from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
+from nacreous.engine.files import format_of_suffix
 from nacreous.engine.jobs import Job
 from nacreous.engine.sweep import Sweep
 from nacreous.tables.spec_document import Document
+from nacreous.web.admission import admit
 from nacreous.web.answers import FailureAnswer, JobAnswer, JobProgress, JobTable, document, json_response
 from nacreous.web.bodies import read_document
-from nacreous.web.colours import check_colour
-from nacreous.web.files import format_of_suffix, split_file_name
+from nacreous.web.files import split_file_name
 from nacreous.web.ids import checked_id
 from nacreous.web.links import job_links
 from nacreous.web.openapi import HEX_ID, READS_SWEEP, answered, problems, query_parameter
 from nacreous.web.queries import query, whole_number
 from nacreous.web.service import Service, service_of
-from nacreous.web.sizes import check_size
 
 __all__ = ["job_answer", "router"]
 
@@ -64,11 +64,10 @@ async def add_job(request: Request) -> Response:
 
 
 def _sweep(document_of_sweep: Document, limit: int) -> Sweep:
-    """Return the sweep of a document, whose first table is within the byte budget and has colours we know."""
+    """Return the sweep of a document, whose first table can be computed."""
     sweep = Sweep.from_document(document_of_sweep, limit)
     for work in sweep[0]:
-        check_size(work)
-        check_colour(work.spec)
+        admit(work)
     return sweep
 
 

@@ -8,12 +8,13 @@ from fastapi import APIRouter, Path
 from starlette.requests import Request
 from starlette.responses import Response
 
+from nacreous.engine.files import format_of_suffix
 from nacreous.formats.registry import FORMATS
 from nacreous.tables.identity import table_id
 from nacreous.tables.presets import preset, preset_names
 from nacreous.web.answers import JobAccepted, PresetAnswer, PresetEntry, PresetList, document, json_file
 from nacreous.web.caching import REVALIDATE
-from nacreous.web.files import file_response, format_of_suffix, representation, split_file_name
+from nacreous.web.files import file_response, representation, split_file_name
 from nacreous.web.links import preset_links
 from nacreous.web.openapi import CONDITIONS, answered, binary, problems, query_parameter
 from nacreous.web.presets import check_preset, preset_work

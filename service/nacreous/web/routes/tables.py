@@ -8,16 +8,16 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from nacreous.engine.cost import estimated_seconds
-from nacreous.engine.files import default_format
+from nacreous.engine.files import SUFFIXES, default_format, format_of_suffix
 from nacreous.engine.sweep import Sweep
 from nacreous.engine.work import Work
 from nacreous.errors import MissingError
 from nacreous.formats.registry import FORMATS
 from nacreous.tables.spec import Spec
+from nacreous.web.admission import admit
 from nacreous.web.answers import JobAccepted, TableAdded, TableAnswer, document, json_response
 from nacreous.web.bodies import read_document
-from nacreous.web.colours import check_colour
-from nacreous.web.files import SUFFIXES, file_response, format_of_suffix, representation, split_file_name
+from nacreous.web.files import file_response, representation, split_file_name
 from nacreous.web.hot_files import TABLE_FILE
 from nacreous.web.ids import checked_id
 from nacreous.web.links import table_links
@@ -25,14 +25,14 @@ from nacreous.web.openapi import CONDITIONS, HEX_ID, READS_SPEC, answered, binar
 from nacreous.web.queries import query
 from nacreous.web.routes.jobs import job_answer
 from nacreous.web.service import Service, service_of
-from nacreous.web.sizes import check_size
 
 __all__ = ["Suffix", "job_of", "router"]
 
 router = APIRouter(tags=["tables"])
 
 TableId = Annotated[str, Path(description="64 lower-case hex digits.", json_schema_extra=HEX_ID)]
-Suffix = Annotated[str, Path(description="By format.", json_schema_extra={"enum": [*SUFFIXES]})]
+_ENDINGS = [suffix.removeprefix(".") for suffix in SUFFIXES]
+Suffix = Annotated[str, Path(description="By format.", json_schema_extra={"enum": _ENDINGS})]
 _LOCATION = ("Location",)
 _LINKS = {
     "table": operation_link("/v1/tables/{table_id}", table_id="$response.body#/id"),
@@ -56,8 +56,7 @@ async def add_table(request: Request) -> Response:
     query(request)
     spec = Spec.from_document(await read_document(request, service.settings))
     work = Work(spec, default_format(spec))
-    check_size(work)
-    check_colour(spec)
+    admit(work)
     if estimated_seconds(work) > service.settings.synchronous_seconds and not await _is_known(service, work):
         return await job_of(service, work)
     added = await service.library.add(spec)
@@ -113,7 +112,7 @@ async def table_file(
     chosen = format_of_suffix(ending)
     if service.library.hot(known, ending) is None:
         work = Work((await service.library.record(known)).spec, chosen.name)
-        check_size(work)
+        admit(work)
         too_long = estimated_seconds(work) > service.settings.deadline_seconds
         if too_long and not await service.library.holds(work, ending):
             return await job_of(service, work)
