@@ -13,7 +13,7 @@ PAGE_SOURCES = Path(__file__).parents[1] / "service" / "page"
 
 
 def built_page() -> Path:
-    """Build the page where it is missing or its sources have changed; skips where there is no npm to do so."""
+    """Build the page where it is missing or its sources have changed; skips where there is no npm."""
     program = runpy.run_path(str(PAGE_SOURCES / "build.py"))
     try:
         return Path(program["build"]())

@@ -52,7 +52,7 @@ class _Visit:
             self.complaints.append(f"{message.text} ({message.location.get('url', '')})")
 
     def _is_refusal(self, message: "ConsoleMessage") -> bool:
-        """Tell whether Chromium notes a request that the service refused or lost: the page has to show that."""
+        """Tell whether Chromium notes a request that was refused or lost: the page shows that."""
         asked = message.location.get("url", "").removeprefix(self.origin)
         return message.text.startswith("Failed to load resource") and asked.startswith(_ASKED_BY_THE_PAGE)
 
