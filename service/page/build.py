@@ -16,7 +16,15 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 
-__all__ = ["BUILT", "NoNpmError", "PageError", "build", "install_packages", "npm_program"]
+__all__ = [
+    "BUILT",
+    "NoNpmError",
+    "PageError",
+    "build",
+    "digest_of_sources",
+    "install_packages",
+    "npm_program",
+]
 
 PAGE = Path(__file__).resolve().parent
 ROOT = PAGE.parents[1]
@@ -50,7 +58,7 @@ def build() -> Path:
         There is no npm, its registry cannot be reached, or the sources cannot be built.
     """
     with _alone():
-        digest = _digest()
+        digest = digest_of_sources()
         if not _BUILT_FROM.is_file() or _BUILT_FROM.read_text() != digest:
             install_packages()
             _npm("run", "build", remedy="correct the sources as its output says")
@@ -70,7 +78,8 @@ def _alone() -> Iterator[None]:
         os.close(lock)
 
 
-def _digest() -> str:
+def digest_of_sources() -> str:
+    """Return a digest of all that the page is built from, names included."""
     digest = hashlib.sha256()
     for file in sorted(file for folder in _SOURCES for file in _files(ROOT / folder)):
         digest.update(
