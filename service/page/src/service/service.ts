@@ -57,7 +57,8 @@ export function relative(link: string): string {
   return link.replace(/^\//, "");
 }
 
-async function answered(address: string, init: RequestInit = {}, signal?: AbortSignal): Promise<Response> {
+/** The answer to a request; asked again where the service is busy. @throws ProblemError, LostError */
+export async function answered(address: string, init: RequestInit = {}, signal?: AbortSignal): Promise<Response> {
   for (let retry = 0; ; retry++) {
     const response = await sent(address, init, signal);
     if (response.ok) return response;
