@@ -24,6 +24,10 @@ export function incidence(thetaDegrees: number): string {
   return thetaDegrees === 0 ? "normal incidence" : degrees(thetaDegrees);
 }
 
+export function nanometres(nm: number): string {
+  return `${Number(nm.toFixed(1))} nm`;
+}
+
 /** Bytes as people count them: 148460 is "148 kB". */
 export function bytes(count: number): string {
   if (count < 1000) return `${count} B`;

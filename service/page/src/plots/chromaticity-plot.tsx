@@ -25,7 +25,7 @@ interface Window {
   readonly size: number;
 }
 
-const WHOLE: Window = { x: -0.02, y: -0.02, size: 0.9 };
+const WHOLE: Window = { x: -0.075, y: -0.06, size: 0.96 };
 const SMALLEST = 0.06;
 
 interface Spot {
@@ -62,9 +62,9 @@ function Diagram({ texture }: { readonly texture: LookupTexture }) {
           {!isNear && LOCUS.filter(({ nm }) => NAMED_NM.includes(nm)).map((each) => <LocusLabel key={each.nm} {...each} />)}
           <polyline class="path thin" points={points(overScale)} />
           <polyline class="path" points={points(overAngle)} />
-          {overAngle.filter((_, at) => at % 5 === 0).map((each, at) => <Dot key={at} spot={each} radius={0.006 * view.size} />)}
+          {overAngle.filter((_, at) => at % 15 === 0).map((each, at) => <Dot key={at} spot={each} radius={0.007 * view.size} />)}
           <Cross at={D65} size={0.012 * view.size} />
-          <Dot spot={current} radius={0.018 * view.size} name="current" />
+          <Dot spot={current} radius={0.015 * view.size} name="current" />
         </svg>
       </div>
       <p class="reading">

@@ -8,7 +8,7 @@ import { Plot, PlotState } from "./plot";
 import { StripPicture, type StripPlace } from "./strip-picture";
 import { hex, luminance } from "../film/colour";
 import { colourAt, outOfGamutShare } from "../film/lookup-colour";
-import { decimals, degrees, percent } from "../film/numbers";
+import { degrees, nanometres, percent } from "../film/numbers";
 import { onlyThicknessNm, scaleThicknesses } from "../film/thickness";
 import { SCALES } from "../film/views";
 import { edit } from "../state/editor";
@@ -44,7 +44,7 @@ function Strip({ lookup: { reflectance, spec } }: { readonly lookup: Lookup }) {
         texture={reflectance}
         chosen={chosen}
         described={described}
-        thicknessLabel={(at) => (only === undefined ? `${decimals(at)} ×` : `${decimals(at * only)} nm`)}
+        thicknessLabel={(at) => (only === undefined ? `${at} ×` : nanometres(at * only))}
         onChoose={choose}
         onHover={setHovered}
       />
@@ -92,7 +92,7 @@ function description(texture: LookupTexture, place: StripPlace, only: number | u
 
 function thicknessWords(scale: number, only: number | undefined): string {
   const factor = `${scale.toFixed(2)} times the thickness`;
-  return only === undefined ? factor : `${decimals(scale * only)} nm`;
+  return only === undefined ? factor : nanometres(scale * only);
 }
 
 function gamutWords(share: number): string {

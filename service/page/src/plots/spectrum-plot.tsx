@@ -138,6 +138,13 @@ function drawBand({ ctx, bbox, posToVal, valToPos }: uPlot): void {
     const nm = posToVal(x / devicePixelRatio, "x");
     if (nm < VISIBLE_NM[0] || nm > VISIBLE_NM[1]) continue;
     ctx.fillStyle = hex(wavelengthColour(nm));
+    ctx.globalAlpha = visibility(nm);
     ctx.fillRect(valToPos(nm, "x", true), bbox.top + bbox.height, 1.5, height);
   }
+  ctx.globalAlpha = 1;
+}
+
+/** Light fades towards the ends of what the eye sees. */
+function visibility(nm: number): number {
+  return Math.min(1, (nm - VISIBLE_NM[0]) / 40, (VISIBLE_NM[1] - nm) / 80);
 }
