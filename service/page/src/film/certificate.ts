@@ -22,7 +22,7 @@ const SENTENCES: Readonly<Record<string, Sentence>> = {
   bsdf_error_max: (value, { bsdf_error_p99, bsdf_max }) =>
     `Light to one direction, read between the samples, is within ${decimals(value)} per steradian${nearly(bsdf_error_p99)}` +
     `; the brightest is ${decimals(bsdf_max ?? NaN)}.`,
-  rounding_error_max: (value) => `At the samples themselves the precision costs ${percent(value)} at most.`,
+  rounding_error_max: (value) => `At the samples themselves the precision costs ${value === 0 ? "nothing" : `${percent(value)} at most`}.`,
   texel_error_max: (value) => `At the samples themselves facets and precision cost ${percent(value)} at most.`,
   sample_error_max: (value) => `A sample itself, where it is not dark, is within ${percent(value)}.`,
   film_error: (value) => `The facets take R and T within ${percent(value)}.`,

@@ -104,7 +104,7 @@ function Axes({ view: { x, y, size } }: { readonly view: Window }) {
           {at - y > 2 * text && <text x={x + 0.3 * text} y={-at - 0.3 * text}>{at.toFixed(2).replace(/0$/, "")}</text>}
         </g>
       ))}
-      <text class="name" x={x + size - 0.8 * text} y={-y - 0.4 * text}>x</text>
+      <text class="name" x={x + size - 0.8 * text} y={-y - 2 * text}>x</text>
       <text class="name" x={x + 0.3 * text} y={-y - size + text}>y</text>
     </g>
   );
@@ -114,7 +114,7 @@ function LocusLabel({ nm, xy: [x, y] }: { readonly nm: number; readonly xy: Xy }
   const away = 1 + 0.03 / Math.hypot(x - D65[0], y - D65[1]);
   const [labelX, labelY] = [D65[0] + away * (x - D65[0]), D65[1] + away * (y - D65[1])];
   return (
-    <g class="locus-label" font-size="0.024">
+    <g class="locus-label" font-size="0.03">
       <circle cx={x} cy={-y} r="0.004" />
       <text x={labelX} y={-labelY + 0.008} text-anchor={x < D65[0] ? "end" : "start"}>{nm}</text>
     </g>

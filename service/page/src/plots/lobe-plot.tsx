@@ -16,7 +16,7 @@ import "./lobe-plot.css";
 
 /** Powers of ten between the middle and the rim. */
 const DECADES = 4;
-const VIEW = "-1.12 -1.14 2.24 1.2";
+const VIEW = "-1.12 -1.16 2.24 1.22";
 
 export function LobePlot() {
   const place = useRef<HTMLDivElement>(null);
@@ -118,7 +118,7 @@ function Spoke({ angle }: { readonly angle: number }) {
   return (
     <g>
       <line class="ring" x1="0" y1="0" x2={x} y2={y} />
-      <text x={labelX} y={labelY + 0.02} text-anchor="middle" font-size="0.05">{Math.abs(angle)}°</text>
+      <text x={labelX} y={labelY + 0.02} text-anchor="middle" font-size="0.065">{Math.abs(angle)}°</text>
     </g>
   );
 }

@@ -9,8 +9,8 @@ import { type Curve, type XyAxis, XyPlot } from "./xy-plot";
 import { hex } from "../film/colour";
 import { wavelengthColour } from "../film/colour-weights";
 import { decimals, incidence, percent } from "../film/numbers";
-import { relative } from "../service/service";
 import { followSpectrum, spectrum, type Spectrum } from "../state/spectrum";
+import { saveFile } from "../state/taken-file";
 import "./spectrum-plot.css";
 
 const AXES: readonly XyAxis[] = [{ label: "Wavelength in nm" }, { label: "Share of the light in %" }];
@@ -73,9 +73,9 @@ function Curves({ answer, showsT }: { readonly answer: Spectrum; readonly showsT
       <Reading answer={answer} at={cursor} />
       <Numbers caption={`R and T in % at ${incidence(answer.thetaDegrees)}`} heads={HEADS} rows={rowsOf(answer)} />
       <p>
-        <a href={relative(answer.csv)} download>
-          These numbers as CSV
-        </a>
+        <button type="button" onClick={() => saveFile(new Blob([answer.csv], { type: "text/csv" }), "spectrum.csv")}>
+          Save as CSV
+        </button>
       </p>
     </>
   );

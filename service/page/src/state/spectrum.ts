@@ -19,7 +19,7 @@ export interface Spectrum {
   readonly R_p: readonly number[];
   readonly T_s: readonly number[];
   readonly T_p: readonly number[];
-  /** Link to the table as csv. */
+  /** The table as the service wrote it. */
   readonly csv: string;
 }
 
@@ -38,9 +38,9 @@ export function followSpectrum(): () => void {
 
 async function fetchSpectrum({ spec: document, thetaDegrees: theta }: Asked): Promise<Spectrum> {
   const { links } = await addTable(spectrumSpec(document, theta));
-  const { csv } = links;
-  if (!csv) throw new Error("expected a link to the spectrum as csv, found none");
-  return { ...spectrumOf(await text(csv), theta), csv };
+  if (!links["csv"]) throw new Error("expected a link to the spectrum as csv, found none");
+  const csv = await text(links["csv"]);
+  return { ...spectrumOf(csv, theta), csv };
 }
 
 function spectrumOf(csv: string, theta: number): Omit<Spectrum, "csv"> {
