@@ -1,6 +1,7 @@
 /** The film to take away: its files for each program, and the spec to make them again. */
 
-import { useId, useState } from "preact/hooks";
+import { signal } from "@preact/signals";
+import { useId } from "preact/hooks";
 
 import { CopiedText } from "./copied-text";
 import { FileRow } from "./file-row";
@@ -13,6 +14,9 @@ import type { TableAdded } from "../service/answers";
 import { edit, openedPreset, spec } from "../state/editor";
 import { isCurrent, makeFiles, making } from "../state/files";
 import "./downloads.css";
+
+/** Name of the target that the files are for; it stays while they are made anew. */
+const chosen = signal(TARGETS[0]?.name);
 
 export function Downloads() {
   const id = useId();
@@ -47,16 +51,15 @@ function Progress({ fraction }: { readonly fraction: number | undefined }) {
 }
 
 function Files({ table }: { readonly table: TableAdded }) {
-  const [chosen, setChosen] = useState(TARGETS[0]?.name);
   const name = useId();
-  const target = TARGETS.find((each) => each.name === chosen);
+  const target = TARGETS.find((each) => each.name === chosen.value);
   return (
     <>
       <fieldset class="targets">
         <legend>Where does it go?</legend>
         {TARGETS.map((each) => (
           <label key={each.name}>
-            <input type="radio" name={name} checked={each.name === chosen} onChange={() => setChosen(each.name)} />
+            <input type="radio" name={name} checked={each.name === chosen.value} onChange={() => (chosen.value = each.name)} />
             <span>{each.name}</span>
           </label>
         ))}

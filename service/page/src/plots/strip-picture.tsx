@@ -68,7 +68,7 @@ export function StripPicture({ texture, chosen, described, thicknessLabel, onCho
           onChoose({ thetaDegrees: chosen.thetaDegrees + step[0], scale: chosen.scale + step[1] });
         }}
       >
-        <canvas ref={canvas} data-table={texture.id} />
+        <canvas ref={canvas} data-table={texture.id} data-size={`${texture.axes.x.count}x${texture.axes.y.count}`} />
         <span class="strip-line" style={{ top: percentage((high - 1) / (high - low)) }} />
         <span
           class="strip-mark"
