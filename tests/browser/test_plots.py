@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 import numpy as np
-import pytest
 from lut_contract import LookupTexture
 from numpy.typing import NDArray
 from page_links import film_fragment
@@ -131,16 +130,15 @@ def test_a_smooth_surface_has_a_ray(page: "Page") -> None:
     expect(section.get_by_role("img", name=re.compile("all reflected light leaves at 55°"))).to_be_visible()
 
 
-@pytest.mark.parametrize("name", ["Spectrum", "Colour over angle and thickness", "Chromaticity"])
-def test_plots_fit_a_phone(page: "Page", name: str) -> None:
+def test_plots_fit_a_phone(page: "Page") -> None:
     """No plot is wider than a screen of 320 pixels: WCAG 2.2, success criterion 1.4.10."""
-    section = opened(page, FILM, name)
+    opened(page, FILM, "Chromaticity")
     page.set_viewport_size({"width": 320, "height": 640})
-    box = section.bounding_box()
-    assert box is not None
-    assert box["x"] >= 0
-    assert box["x"] + box["width"] <= 320
-    assert page.evaluate("document.documentElement.scrollWidth") <= 320
+    for plot in page.locator("section.plot").all():
+        box = plot.bounding_box()
+        assert box is not None
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 320
 
 
 def opened(page: "Page", spec: dict[str, Any], name: str, /, **view: float) -> "Locator":
