@@ -24,8 +24,9 @@ from nacreous.web.limits import Limits
 from nacreous.web.observation import HeadAsGet, Observed, Problems
 from nacreous.web.openapi import use_openapi
 from nacreous.web.problems import Problem
-from nacreous.web.routes import jobs, materials, operations, page, presets, tables
+from nacreous.web.routes import jobs, materials, operations, presets, tables
 from nacreous.web.routes.docs import docs_routes
+from nacreous.web.routes.page import BUILT_PAGE, page_routes
 from nacreous.web.service import Service, make_service
 from nacreous.web.settings import Settings
 
@@ -40,7 +41,7 @@ _EXPOSED = (
     *("Content-Disposition", "Content-Range", "Accept-Ranges"),
 )
 
-_ROUTERS = (tables.router, presets.router, materials.router, jobs.router, operations.router, page.router)
+_ROUTERS = (tables.router, presets.router, materials.router, jobs.router, operations.router)
 
 
 def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
@@ -72,6 +73,7 @@ def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
     for router in _ROUTERS:
         app.router.routes.extend(router.routes)  # one list: what a path answers to is looked up in it
     app.router.routes.extend(docs_routes(app.openapi_url or ""))
+    app.router.routes.extend(page_routes(BUILT_PAGE))
     app.add_exception_handler(HTTPException, _http_problem)
     app.add_exception_handler(RequestValidationError, _validation_problem)
     app.add_middleware(Problems)  # within what FastAPI would answer 500 with
