@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 import numpy as np
-from lut_contract import LookupTexture
 from numpy.typing import NDArray
+
+from lut_contract import LookupTexture
 from page_links import film_fragment
 from reference import film
 from served import Served
@@ -78,7 +79,9 @@ def test_the_arrows_move_angle_and_thickness(page: "Page") -> None:
     strip.focus()
     for key in ("ArrowRight", "ArrowRight", "ArrowUp"):
         page.keyboard.press(key)
-    expect(strip).to_have_attribute("aria-valuetext", re.compile(r"22 degrees, 424.2 nm: colour #[0-9a-f]{6}"))
+    expect(strip).to_have_attribute(
+        "aria-valuetext", re.compile(r"22 degrees, 424.2 nm: colour #[0-9a-f]{6}")
+    )
     expect(region(page, "Spectrum").get_by_role("slider")).to_have_value("22")
     section.get_by_role("button", name="Use this thickness").click()
     page.get_by_text("Spec as TOML").click()

@@ -9,7 +9,7 @@ import { isRough, type LobeSample } from "../film/lobe";
 import { colourAt } from "../film/lookup-colour";
 import { decimals, degrees, percent } from "../film/numbers";
 import { spec } from "../state/editor";
-import { followLobe, isLobeSeen, lobe, lobeJob, type Lobe } from "../state/lobe";
+import { followLobe, isLobeSeen, lobe, type Lobe } from "../state/lobe";
 import { lookup } from "../state/lookup";
 import { thetaDegrees } from "../state/view";
 import "./lobe-plot.css";
@@ -37,8 +37,7 @@ export function LobePlot() {
 }
 
 function RoughLobe() {
-  const job = lobeJob.value;
-  const waiting = job ? `The service takes longer for this: ${percent(job.fraction)} done.` : "The lobe is being computed.";
+  const waiting = "The lobe is being computed.";
   const { answer } = lobe.value;
   return (
     <>
