@@ -1,0 +1,5 @@
+/** Gallery */
+
+export function Gallery() {
+  return null;
+}

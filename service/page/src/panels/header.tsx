@@ -1,0 +1,5 @@
+/** Header */
+
+export function Header() {
+  return null;
+}

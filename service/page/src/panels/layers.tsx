@@ -1,0 +1,5 @@
+/** Layers */
+
+export function Layers() {
+  return null;
+}

@@ -1,0 +1,5 @@
+/** Notice */
+
+export function Notice() {
+  return null;
+}

@@ -1,0 +1,5 @@
+/** SurfacePanel */
+
+export function SurfacePanel() {
+  return null;
+}
