@@ -28,6 +28,13 @@ FILM: dict[str, Any] = {
 ALPHA = 0.15
 ROUGH = FILM | {"surface": {"distribution": "ggx", "alpha_x": ALPHA, "masking": "v-cavity"}}
 PERCENT_DIGIT = 0.01
+COLOURS_OF_CANVAS = """plot => {
+    const canvas = plot.querySelector("canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const colours = new Set();
+    for (let at = 0; at < data.length; at += 4) colours.add(data.slice(at, at + 3).join());
+    return [...colours].map(text => text.split(",").map(Number));
+}"""
 FINE = "128x65"
 """Texels of the texture that is drawn once the film rests."""
 
@@ -133,6 +140,18 @@ def test_a_smooth_surface_has_a_ray(page: "Page") -> None:
     expect(section.get_by_role("img", name=re.compile("all reflected light leaves at 55°"))).to_be_visible()
 
 
+def test_curves_are_drawn_anew_for_the_dark(page: "Page") -> None:
+    """A canvas knows no style sheet: once the theme changes its curve has the new token's colour."""
+    from playwright.sync_api import expect
+
+    plot = opened(page, FILM, "Spectrum").get_by_role("img")
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)
+        ink, curve = (token(page, name) for name in ("--ink", "--plot-r"))
+        expect(plot).to_have_attribute("data-ink", ink)
+        assert [int(curve[at : at + 2], 16) for at in (1, 3, 5)] in plot.evaluate(COLOURS_OF_CANVAS)
+
+
 def test_plots_fit_a_phone(page: "Page") -> None:
     """No plot is wider than a screen of 320 pixels: WCAG 2.2, success criterion 1.4.10."""
     opened(page, FILM, "Chromaticity")
@@ -196,6 +215,12 @@ def lookup_texture(service: Served, table: str, folder: Path) -> LookupTexture:
     path = folder / "strip.exr"
     path.write_bytes(httpx.get(f"{service.url}/v1/tables/{table}.exr").raise_for_status().content)
     return LookupTexture.read(path)
+
+
+def token(page: "Page", name: str) -> str:
+    """Return a token of the page's style."""
+    style = "name => getComputedStyle(document.documentElement).getPropertyValue(name).trim()"
+    return str(page.evaluate(style, name))
 
 
 def encoded(linear: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -22,8 +22,8 @@ export function ColourStrip() {
   const { answer } = lookup.value;
   return (
     <Plot title="Colour over angle and thickness" class="colour-strip">
-      <PlotState asking={lookup.value} waiting="The colours are being computed." />
       {answer ? <Strip lookup={answer} /> : <div class="strip-frame" />}
+      <PlotState asking={lookup.value} waiting="The colours are being computed." />
     </Plot>
   );
 }

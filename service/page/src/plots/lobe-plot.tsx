@@ -41,8 +41,8 @@ function RoughLobe() {
   const { answer } = lobe.value;
   return (
     <>
-      <PlotState asking={lobe.value} waiting={waiting} />
       {answer ? <Drawn lobe={answer} /> : <Polar label={waiting} theta={thetaDegrees.value} />}
+      <PlotState asking={lobe.value} waiting={waiting} />
     </>
   );
 }
@@ -94,7 +94,7 @@ interface PolarProps {
 }
 
 function Polar({ label, theta, children }: PolarProps) {
-  const [x, y] = polar(-theta, 1.06);
+  const [x, y] = polar(-theta, 0.98);
   return (
     <div class="lobe-picture" role="img" aria-label={label}>
       <svg viewBox={VIEW} aria-hidden="true">
