@@ -21,18 +21,28 @@ export function placeOn(axis: Axis, value: number): Between {
   return { lower, part: texel - lower };
 }
 
-export function texelColour({ texture }: LookupTexture, across: Between, down: Between): Rgb {
+export function texelColour(texture: LookupTexture, across: Between, down: Between): Rgb {
+  const row = rowColours(texture, down);
+  const mixed = (channel: number) => {
+    const [left = NaN, right = NaN] = [row[3 * across.lower + channel], row[3 * across.lower + 3 + channel]];
+    return left + across.part * (right - left);
+  };
+  return [mixed(0), mixed(1), mixed(2)];
+}
+
+/** The colours of one thickness at every texel's angle: R, G and B by turns. */
+export function rowColours({ texture }: LookupTexture, { lower, part }: Between): Float64Array {
   const { width, height, data } = texture.image as { width: number; height: number; data: Float32Array };
   const channels = data.length / (width * height);
   // The smallest scale is the file's top row and WebGL's last.
-  const row = (height - 1 - down.lower) * width + across.lower;
-  const mixed = (channel: number) => {
-    const texel = (offset: number) => data[(row + offset) * channels + channel] ?? NaN;
-    const upper = texel(0) + across.part * (texel(1) - texel(0));
-    const lower = texel(-width) + across.part * (texel(1 - width) - texel(-width));
-    return upper + down.part * (lower - upper);
-  };
-  return [mixed(0), mixed(1), mixed(2)];
+  const start = (height - 1 - lower) * width * channels;
+  const row = new Float64Array(3 * width);
+  for (let at = 0; at < row.length; at++) {
+    const upper = start + Math.floor(at / 3) * channels + (at % 3);
+    const [above = NaN, below = NaN] = [data[upper], data[upper - width * channels]];
+    row[at] = above + part * (below - above);
+  }
+  return row;
 }
 
 /** Share of the texels whose colour no screen of this gamut can show. */

@@ -16,7 +16,7 @@ import "./chromaticity-plot.css";
 const LOCUS = spectralLocus();
 const NAMED_NM = [460, 480, 500, 520, 540, 560, 580, 600, 620];
 const LARGEST_DEGREES = 89;
-const THICKNESSES = 64;
+const THICKNESSES = 129;
 
 /** What is seen of the plane: the corner at the lower left, and the size. */
 interface Window {
@@ -37,8 +37,8 @@ export function ChromaticityPlot() {
   const { answer } = lookup.value;
   return (
     <Plot title="Chromaticity" class="chromaticity-plot">
-      <PlotState asking={lookup.value} waiting="The colours are being computed." />
       {answer ? <Diagram texture={answer.reflectance} /> : <div class="chromaticity-picture" />}
+      <PlotState asking={lookup.value} waiting="The colours are being computed." />
     </Plot>
   );
 }

@@ -1,7 +1,7 @@
 /** The film's colour over the angle and the thickness, from the lookup texture itself. */
 
 import type { LookupTexture } from "@nacreous/three";
-import { useState } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
 
 import { LARGEST_THETA_DEGREES } from "./angle-slider";
 import { Plot, PlotState } from "./plot";
@@ -22,8 +22,8 @@ export function ColourStrip() {
   const { answer } = lookup.value;
   return (
     <Plot title="Colour over angle and thickness" class="colour-strip">
-      <PlotState asking={lookup.value} waiting="The colours are being computed." />
       {answer ? <Strip lookup={answer} /> : <div class="strip-frame" />}
+      <PlotState asking={lookup.value} waiting="The colours are being computed." />
     </Plot>
   );
 }
@@ -37,6 +37,7 @@ function Strip({ lookup: { reflectance, spec } }: { readonly lookup: Lookup }) {
     thetaDegrees.value = limited(Math.round(place.thetaDegrees), 0, LARGEST_THETA_DEGREES);
     setScale(limited(Math.round(place.scale / SCALE_STEP) * SCALE_STEP, SCALES.start, SCALES.stop));
   };
+  const outside = useMemo(() => outOfGamutShare(reflectance), [reflectance]);
   const described = description(reflectance, chosen, only);
   return (
     <>
@@ -53,7 +54,7 @@ function Strip({ lookup: { reflectance, spec } }: { readonly lookup: Lookup }) {
         <button type="button" disabled={scale === 1} onClick={() => useThickness(scale, setScale)}>
           Use this thickness
         </button>
-        <span>{gamutWords(outOfGamutShare(reflectance))}</span>
+        <span>{gamutWords(outside)}</span>
       </p>
     </>
   );

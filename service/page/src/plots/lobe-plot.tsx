@@ -9,7 +9,7 @@ import { isRough, type LobeSample } from "../film/lobe";
 import { colourAt } from "../film/lookup-colour";
 import { decimals, degrees, percent } from "../film/numbers";
 import { spec } from "../state/editor";
-import { followLobe, isLobeSeen, lobe, lobeJob, type Lobe } from "../state/lobe";
+import { followLobe, isLobeSeen, lobe, type Lobe } from "../state/lobe";
 import { lookup } from "../state/lookup";
 import { thetaDegrees } from "../state/view";
 import "./lobe-plot.css";
@@ -37,13 +37,12 @@ export function LobePlot() {
 }
 
 function RoughLobe() {
-  const job = lobeJob.value;
-  const waiting = job ? `The service takes longer for this: ${percent(job.fraction)} done.` : "The lobe is being computed.";
+  const waiting = "The lobe is being computed.";
   const { answer } = lobe.value;
   return (
     <>
-      <PlotState asking={lobe.value} waiting={waiting} />
       {answer ? <Drawn lobe={answer} /> : <Polar label={waiting} theta={thetaDegrees.value} />}
+      <PlotState asking={lobe.value} waiting={waiting} />
     </>
   );
 }
@@ -95,7 +94,7 @@ interface PolarProps {
 }
 
 function Polar({ label, theta, children }: PolarProps) {
-  const [x, y] = polar(-theta, 1.06);
+  const [x, y] = polar(-theta, 0.98);
   return (
     <div class="lobe-picture" role="img" aria-label={label}>
       <svg viewBox={VIEW} aria-hidden="true">

@@ -26,8 +26,8 @@ export function Plot({ title, class: name = "", children }: PlotProps) {
 export function PlotState({ asking, waiting }: { readonly asking: Asking<unknown>; readonly waiting: string }) {
   const { answer, problem, pending } = asking;
   if (problem) {
-    const said = answer === undefined ? "Nothing to draw yet" : "Drawn as it was before";
-    return <p class="plot-state" role="status">{`${said}: ${problem.detail}`}</p>;
+    const said = answer === undefined ? "Nothing to draw yet" : "What is drawn came before";
+    return <p class="plot-state" role="status">{`${said}. ${problem.detail}.`}</p>;
   }
   if (answer === undefined) return <p class="plot-state" role="status">{pending ? waiting : ""}</p>;
   return null;

@@ -37,8 +37,8 @@ export function SpectrumPlot() {
         </li>
         {showsT && <Key name="T, dashed" stroke="--plot-t" dashed="6 4" />}
       </ul>
-      <PlotState asking={spectrum.value} waiting="The spectrum is being computed." />
       {answer ? <Curves answer={answer} showsT={showsT} /> : <div class="xy-plot" />}
+      <PlotState asking={spectrum.value} waiting="The spectrum is being computed." />
     </Plot>
   );
 }

@@ -3,8 +3,8 @@
 import type { LookupTexture } from "@nacreous/three";
 import { useLayoutEffect } from "preact/hooks";
 
-import { screenByte } from "../film/colour";
-import { placeOn, texelColour } from "../film/lookup-colour";
+import { screenTable } from "../film/colour";
+import { type Between, placeOn, rowColours } from "../film/lookup-colour";
 import { type Size, useSize } from "./use-size";
 
 /** A place on the strip. */
@@ -106,17 +106,26 @@ function draw(canvas: HTMLCanvasElement, texture: LookupTexture, { width, height
   if (!context) return;
   const picture = context.createImageData(canvas.width, canvas.height);
   const [low, high] = texture.axes.y.range;
-  const across = Array.from({ length: canvas.width }, (_, x) => {
-    const theta = (((x + 0.5) / canvas.width) * Math.PI) / 2;
-    return placeOn(texture.axes.x, Math.cos(theta));
-  });
-  let at = 0;
+  const columns = columnPlaces(texture, canvas.width);
   for (let y = 0; y < canvas.height; y++) {
     const down = placeOn(texture.axes.y, high - ((y + 0.5) / canvas.height) * (high - low));
-    for (const place of across) {
-      for (const component of texelColour(texture, place, down)) picture.data[at++] = screenByte(component);
-      picture.data[at++] = 255;
-    }
+    drawRow(picture.data.subarray(4 * y * canvas.width), rowColours(texture, down), columns);
   }
   context.putImageData(picture, 0, 0);
+}
+
+function columnPlaces({ axes }: LookupTexture, count: number): Between[] {
+  return Array.from({ length: count }, (_, x) => placeOn(axes.x, Math.cos((((x + 0.5) / count) * Math.PI) / 2)));
+}
+
+function drawRow(pixels: Uint8ClampedArray, row: Float64Array, columns: readonly Between[]): void {
+  const shown = screenTable();
+  let at = 0;
+  for (const { lower, part } of columns) {
+    for (let left = 3 * lower; left < 3 * lower + 3; left++) {
+      const [one = NaN, next = NaN] = [row[left], row[left + 3]];
+      pixels[at++] = shown(one + part * (next - one));
+    }
+    pixels[at++] = 255;
+  }
 }

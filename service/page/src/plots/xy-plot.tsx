@@ -40,6 +40,7 @@ export function XyPlot(props: XyPlotProps) {
   useEffect(() => {
     if (!place.current || width === 0) return undefined;
     plot.current = new uPlot(options(props, width, height), props.data, place.current);
+    place.current.dataset["ink"] = token("--ink"); // that of the theme it has been drawn in
     return () => plot.current?.destroy();
   }, [dressing, width > 0]);
   useEffect(() => plot.current?.setData(props.data), [props.data]);

@@ -2,10 +2,9 @@
 
 import type { JobAccepted, JobAnswer, TableAdded } from "./answers";
 import { ProblemError } from "./problem";
-import { answered, relative } from "./service";
+import { ACCEPTED, answered, relative } from "./service";
 import type { SpecDocument } from "../film/document";
 
-const ACCEPTED = 202;
 const ENDED = new Set(["done", "failed", "cancelled"]);
 
 /** How far a job is. */

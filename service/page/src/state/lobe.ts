@@ -8,8 +8,7 @@ import { spec } from "./editor";
 import { thetaDegrees } from "./view";
 import type { SpecDocument } from "../film/document";
 import { isRough, type LobeSample, lobeSamples, lobeSpec } from "../film/lobe";
-import { type JobProgress, tabulated } from "../service/jobs";
-import { text } from "../service/service";
+import { addTable, text } from "../service/service";
 
 const REST_MS = 400;
 
@@ -25,8 +24,6 @@ interface Asked {
 
 /** Whether the lobe can be seen on the screen. */
 export const isLobeSeen = signal(false);
-/** How far the service is, where it takes long. */
-export const lobeJob = signal<JobProgress | undefined>(undefined);
 
 const followed = follower(fetchLobe);
 export const lobe = followed.state;
@@ -41,8 +38,7 @@ function wanted(): Asked | undefined {
 }
 
 async function fetchLobe({ spec: document, thetaDegrees: theta }: Asked): Promise<Lobe> {
-  const { links } = await tabulated(lobeSpec(document, theta), (job) => (lobeJob.value = job));
-  lobeJob.value = undefined;
+  const { links } = await addTable(lobeSpec(document, theta));
   if (!links["csv"]) throw new Error("expected a link to the lobe as csv, found none");
   return { thetaDegrees: theta, samples: lobeSamples(await text(links["csv"])) };
 }

@@ -1,7 +1,7 @@
 /** The film's lookup textures: coarse ones while the spec changes, fine ones when it rests. */
 
 import { effect } from "@preact/signals";
-import { type LookupTexture, parseLookupTexture } from "@nacreous/three";
+import type { LookupTexture } from "@nacreous/three";
 
 import { returns } from "./connection";
 import { follower } from "./asking";
@@ -50,5 +50,8 @@ async function fetchLookup({ spec: document, size }: Asked): Promise<Lookup> {
 }
 
 async function texture(link: string | undefined): Promise<LookupTexture | undefined> {
-  return link === undefined ? undefined : parseLookupTexture(await file(link));
+  if (link === undefined) return undefined;
+  // three is loaded while the service computes: nobody waits for one and then for the other.
+  const [{ parseLookupTexture }, bytes] = await Promise.all([import("@nacreous/three"), file(link)]);
+  return parseLookupTexture(bytes);
 }
