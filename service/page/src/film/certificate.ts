@@ -25,9 +25,9 @@ const SENTENCES: Readonly<Record<string, Sentence>> = {
   rounding_error_max: (value) => `At the samples themselves the precision costs ${value === 0 ? "nothing" : `${percent(value)} at most`}.`,
   texel_error_max: (value) => `At the samples themselves facets and precision cost ${percent(value)} at most.`,
   sample_error_max: (value) => `A sample itself, where it is not dark, is within ${percent(value)}.`,
-  film_error: (value) => `The facets take R and T within ${percent(value)}.`,
+  film_error: (value) => `What the facets read of R and T is within ${percent(value)}.`,
   reciprocity_error_max: (value) => `With light and eye exchanged it is the same within ${percent(value)}.`,
-  energy_max: (value) => energyWords(value),
+  energy_max: (value, figures) => energyWords(value, "intensity_error_max" in figures),
   out_of_gamut: (value) =>
     value === 0
       ? "All colours are within the gamut."
@@ -63,7 +63,8 @@ function judged(deltaE: number): string {
   return "1 is what an eye just sees: a finer grid of angles or thicknesses brings it down.";
 }
 
-function energyWords(most: number): string {
+function energyWords(most: number, isFilm: boolean): string {
   const kept = most <= 1 + 1e-4 ? "No light is made up" : "More light leaves than comes";
-  return `${kept}: R + T is ${most.toFixed(4)} at most.`;
+  const all = isFilm ? `R + T is ${most.toFixed(4)} at most` : `all that leaves is ${percent(most)} of what came at most`;
+  return `${kept}: ${all}.`;
 }
