@@ -93,9 +93,9 @@ export class Stage {
   }
 
   #exchange(model: ShapeModel): void {
-    this.#scene.remove(...(this.#model.beside ?? []));
+    for (const thing of this.#model.beside ?? []) this.#scene.remove(thing);
+    for (const thing of model.beside ?? []) this.#scene.add(thing);
     this.#model = model;
-    this.#scene.add(...(model.beside ?? []));
     this.#shadow.position.y = model.shadow.y;
     this.#shadow.scale.setScalar(1.9 * model.shadow.radius);
     if (!this.#mesh || !this.#lookup) return;
@@ -133,6 +133,7 @@ export class Stage {
     material.color.setScalar(ground > 0 ? ground : 1);
     if (material.thicknessScaleMap !== this.#model.thickness) material.thicknessScaleMap = this.#model.thickness;
     material.thicknessScaleRange = this.#model.thicknessScaleRange ?? [1, 1];
+    for (const thing of this.#model.beside ?? []) thing.visible = isThrough || !this.#model.glass;
     this.#shadow.material.uniforms.darkness!.value = isThrough ? 0.18 : 0.55;
   }
 
