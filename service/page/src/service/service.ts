@@ -1,11 +1,12 @@
 /** The requests of the page, one function each. All of them go to where the page itself has come from. */
 
 import type { MaterialAnswer, MaterialList, PresetAnswer, PresetEntry, TableAdded } from "./answers";
-import { bearerKey } from "./key";
+import { bearerKey, keyWanted } from "./key";
 import { LostError, type Problem, ProblemError } from "./problem";
 import type { SpecDocument } from "../film/document";
 
 const UNAVAILABLE = new Set([429, 503]);
+const UNAUTHORIZED = 401;
 const MOST_RETRIES = 4;
 
 /** Tabulate a spec. @throws ProblemError, LostError */
@@ -43,6 +44,11 @@ export async function material(name: string, signal?: AbortSignal): Promise<Mate
   return (await answered(`v1/materials/${encodeURI(name)}`, {}, signal)).json();
 }
 
+/** The version that answers. @throws LostError */
+export async function serviceVersion(): Promise<string> {
+  return (await (await answered("healthz")).json()).version;
+}
+
 /** Whether the service answers at all. */
 export async function isAlive(): Promise<boolean> {
   try {
@@ -57,10 +63,12 @@ export function relative(link: string): string {
   return link.replace(/^\//, "");
 }
 
-async function answered(address: string, init: RequestInit = {}, signal?: AbortSignal): Promise<Response> {
+/** The answer to a request; asked again where the service is busy. @throws ProblemError, LostError */
+export async function answered(address: string, init: RequestInit = {}, signal?: AbortSignal): Promise<Response> {
   for (let retry = 0; ; retry++) {
     const response = await sent(address, init, signal);
     if (response.ok) return response;
+    if (response.status === UNAUTHORIZED) keyWanted.value = true;
     if (!UNAVAILABLE.has(response.status) || retry === MOST_RETRIES) throw new ProblemError(await problemOf(response));
     await pause(Number(response.headers.get("Retry-After") ?? 1), signal);
   }
