@@ -22,7 +22,7 @@ export function GroupRow({ group, at, isFirst, isLast }: GroupRowProps) {
   return (
     <li class="group-row" data-row={at} aria-label={`Group ${at + 1}`}>
       <div class="group-head">
-        <h3>
+        <div class="group-count">
           <NumberField
             label={`Repeat ${name}`}
             labelled="unseen"
@@ -33,7 +33,7 @@ export function GroupRow({ group, at, isFirst, isLast }: GroupRowProps) {
             path={path}
             onValue={(value) => edit(setRepeat(at, value), path)}
           />
-        </h3>
+        </div>
         <button type="button" onClick={() => edit(ungroup(at))}>Ungroup</button>
         <RowActions
           name={name}

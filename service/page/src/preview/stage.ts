@@ -26,7 +26,10 @@ export class Stage {
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #orbit = new Orbit(new PerspectiveCamera(26, 1, 0.5, 20));
-  readonly #pace = new Pace((pixelRatio) => this.#draw(pixelRatio));
+  readonly #pace = new Pace(
+    (pixelRatio) => this.#draw(pixelRatio),
+    (mood) => void (this.canvas.dataset.drawn = mood),
+  );
   readonly #shadow: Shadow = shadow();
   #mesh: Mesh<ShapeModel["geometry"], NacreousMaterial> | undefined;
   #model: ShapeModel = shapeModel("sphere");
