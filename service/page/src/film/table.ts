@@ -13,12 +13,20 @@ export const QUANTITIES: Readonly<Record<Quantity, string>> = {
 };
 
 /** Light sources and observers that are often wanted; the service knows more. */
-export const ILLUMINANTS = words("D65", "D50", "D55", "D75", "A", "C", "E", "FL2", "FL7", "FL11");
+export const ILLUMINANTS = {
+  D65: "D65, daylight",
+  D50: "D50, warmer daylight",
+  D75: "D75, northern sky",
+  A: "A, tungsten lamp",
+  E: "E, equal energy",
+  FL2: "FL2, cool white fluorescent",
+  FL11: "FL11, narrow-band fluorescent",
+};
 export const OBSERVERS = {
   "CIE 1931 2 Degree Standard Observer": "CIE 1931, 2 degrees",
   "CIE 1964 10 Degree Standard Observer": "CIE 1964, 10 degrees",
 };
-export const SPACES = words("Rec.709", "Rec.2020", "ACEScg", "XYZ");
+export const SPACES = { "Rec.709": "Rec.709", "Rec.2020": "Rec.2020", ACEScg: "ACEScg", XYZ: "XYZ" } as const;
 
 const DEFAULT_COSINES = 64;
 
@@ -62,10 +70,6 @@ export function setScales(scales: Scales | "one"): Change {
 /** Known words, and one that the spec has brought along. */
 export function including(known: Readonly<Record<string, string>>, value: string): Readonly<Record<string, string>> {
   return value in known ? known : { [value]: value, ...known };
-}
-
-function words<Name extends string>(...names: Name[]): Readonly<Record<Name, string>> {
-  return Object.fromEntries(names.map((name) => [name, name])) as Record<Name, string>;
 }
 
 function given(table: { [Field in keyof Table]: Table[Field] | undefined }): Table {

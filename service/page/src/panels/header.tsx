@@ -11,7 +11,7 @@ import { canRedo, canUndo, edit, endGesture, redo, spec, undo } from "../state/e
 import { type Theme, theme, THEMES } from "../state/theme";
 import "./header.css";
 
-const THEME_WORDS: Record<Theme, string> = { system: "As the system", light: "Light", dark: "Dark" };
+const THEME_WORDS: Record<Theme, string> = { system: "System", light: "Light", dark: "Dark" };
 
 export function Header() {
   useEffect(followUndoKeys, []);

@@ -6,10 +6,16 @@ import { key } from "../service/key";
 import { LostError, ProblemError } from "../service/problem";
 import { file, relative } from "../service/service";
 
-export function ServicePicture({ link }: { readonly link: string }) {
+interface ServicePictureProps {
+  readonly link: string;
+  /** The picture is there, or will not come. */
+  readonly onSettled: () => void;
+}
+
+export function ServicePicture({ link, onSettled }: ServicePictureProps) {
   const fetched = useFetched(key.value ? link : undefined);
   const address = key.value ? fetched : relative(link);
-  return address ? <img src={address} alt="" loading="lazy" decoding="async" /> : null;
+  return address ? <img src={address} alt="" loading="lazy" decoding="async" onLoad={onSettled} onError={onSettled} /> : null;
 }
 
 function useFetched(link: string | undefined): string | undefined {

@@ -6,9 +6,9 @@ import type { Light } from "../state/view";
 
 export type Theme = "light" | "dark";
 
-/** Greys from the bottom to the top, in linear light; sunset alone has a colour, of its own sky. */
+/** Greys from the bottom to the top, in linear light: darker than a page, or a bubble would not be seen against it. */
 const GREYS: Readonly<Record<Theme, readonly number[]>> = {
-  light: [0.5, 0.44, 0.36, 0.28, 0.24],
+  light: [0.36, 0.3, 0.21, 0.13, 0.09],
   dark: [0.055, 0.042, 0.028, 0.016, 0.01],
 };
 const TINTS: Readonly<Record<Light, readonly [number, number, number]>> = {

@@ -37,6 +37,8 @@ interface Surroundings {
   readonly horizon: Colour;
   readonly ground: Colour;
   readonly lamps: readonly Lamp[];
+  /** How blurred the edges of lamps are: the standard deviation of a tangent. */
+  readonly softness: number;
 }
 
 const LAMPS = 5; // as many as environment.glsl has room for
@@ -47,9 +49,10 @@ const ROUGHEST = 3;
 
 const SURROUNDINGS: Readonly<Record<Light, Surroundings>> = {
   studio: {
-    zenith: [0.72, 0.74, 0.78],
-    horizon: [0.34, 0.35, 0.38],
-    ground: [0.12, 0.118, 0.122],
+    softness: 0.012,
+    zenith: [0.86, 0.88, 0.92],
+    horizon: [0.5, 0.51, 0.53],
+    ground: [0.2, 0.197, 0.204],
     lamps: [
       { towards: [-0.62, 0.62, 0.5], halfSize: [0.42, 0.3], radiance: [4.6, 4.5, 4.3] },
       { towards: [0.93, 0.28, 0.25], halfSize: [0.13, 0.6], radiance: [3, 3.1, 3.3] },
@@ -59,15 +62,17 @@ const SURROUNDINGS: Readonly<Record<Light, Surroundings>> = {
     ],
   },
   overcast: {
+    softness: 0.3,
     zenith: [1.35, 1.38, 1.42],
     horizon: [0.78, 0.8, 0.83],
-    ground: [0.24, 0.235, 0.225],
+    ground: [0.34, 0.335, 0.325],
     lamps: [{ towards: [-0.3, 0.9, 0.35], halfSize: [0.9, 0.9], radiance: [0.55, 0.54, 0.5] }],
   },
   sunset: {
-    zenith: [0.16, 0.24, 0.46],
+    softness: 0.03,
+    zenith: [0.24, 0.34, 0.6],
     horizon: [1.1, 0.56, 0.3],
-    ground: [0.075, 0.06, 0.06],
+    ground: [0.16, 0.12, 0.115],
     lamps: [
       { towards: [-0.8, 0.16, 0.45], halfSize: [0.06, 0.06], radiance: [60, 32, 12] },
       { towards: [-0.8, 0.14, 0.45], halfSize: [0.55, 0.16], radiance: [2.6, 1.15, 0.4] },
@@ -80,11 +85,12 @@ const SURROUNDINGS: Readonly<Record<Light, Surroundings>> = {
 /** An environment that three takes as prefiltered: level by level for rougher surfaces. */
 export function environment(renderer: WebGLRenderer, light: Light): Texture {
   const target = cube();
+  const { softness } = SURROUNDINGS[light];
   const room = new Mesh(new BoxGeometry(5, 5, 5), material(SURROUNDINGS[light]));
   const camera = new CubeCamera(1, 10, target);
   const roughest = target.texture.mipmaps.length - 1;
   for (let level = 0; level <= roughest; level++) {
-    room.material.uniforms.blur!.value = blurAt(level / roughest);
+    room.material.uniforms.blur!.value = Math.hypot(softness, blurAt(level / roughest));
     drawLevel(renderer, camera, room, level);
   }
   room.geometry.dispose();
@@ -121,7 +127,7 @@ function drawLevel(renderer: WebGLRenderer, camera: CubeCamera, room: Mesh, leve
  */
 function blurAt(share: number): number {
   const roughness = 1 - Math.sqrt(1 - share);
-  return Math.max((2 / 1.18) * roughness ** 2, 0.012);
+  return (2 / 1.18) * roughness ** 2;
 }
 
 function material({ zenith, horizon, ground, lamps }: Surroundings): ShaderMaterial {

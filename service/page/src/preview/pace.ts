@@ -6,6 +6,9 @@ const RATIOS = [1, 0.75, 0.5] as const;
 const ROUGHEST = 0.35;
 const MOST_PIXELS = 2; // per CSS pixel and axis
 
+/** Whether more is to be drawn: a better picture of the same, or of what moves. */
+export type Mood = "still" | "moving";
+
 /** Draws a frame so many device pixels per CSS pixel finely; done once the GPU is. */
 export type Draw = (pixelRatio: number) => Promise<void>;
 
@@ -16,7 +19,7 @@ export class Pace {
   #isMoving = false;
   #fullMs = 0;
 
-  constructor(readonly draw: Draw) {}
+  constructor(readonly draw: Draw, readonly onMood: (mood: Mood) => void) {}
 
   /** Draw finely. */
   still(): void {
@@ -40,6 +43,7 @@ export class Pace {
 
   #ask(): void {
     this.#asked = true;
+    this.onMood("moving");
     if (this.#drawing) return;
     this.#drawing = true;
     requestAnimationFrame(() => void this.#run());
@@ -51,6 +55,7 @@ export class Pace {
       await this.#drawOnce();
     }
     this.#drawing = false;
+    if (!this.#isMoving) this.onMood("still");
   }
 
   async #drawOnce(): Promise<void> {

@@ -26,7 +26,10 @@ export class Stage {
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #orbit = new Orbit(new PerspectiveCamera(26, 1, 0.5, 20));
-  readonly #pace = new Pace((pixelRatio) => this.#draw(pixelRatio));
+  readonly #pace = new Pace(
+    (pixelRatio) => this.#draw(pixelRatio),
+    (mood) => void (this.canvas.dataset.drawn = mood),
+  );
   readonly #shadow: Shadow = shadow();
   #mesh: Mesh<ShapeModel["geometry"], NacreousMaterial> | undefined;
   #model: ShapeModel = shapeModel("sphere");
@@ -93,9 +96,9 @@ export class Stage {
   }
 
   #exchange(model: ShapeModel): void {
-    this.#scene.remove(...(this.#model.beside ?? []));
+    for (const thing of this.#model.beside ?? []) this.#scene.remove(thing);
+    for (const thing of model.beside ?? []) this.#scene.add(thing);
     this.#model = model;
-    this.#scene.add(...(model.beside ?? []));
     this.#shadow.position.y = model.shadow.y;
     this.#shadow.scale.setScalar(1.9 * model.shadow.radius);
     if (!this.#mesh || !this.#lookup) return;
@@ -133,6 +136,7 @@ export class Stage {
     material.color.setScalar(ground > 0 ? ground : 1);
     if (material.thicknessScaleMap !== this.#model.thickness) material.thicknessScaleMap = this.#model.thickness;
     material.thicknessScaleRange = this.#model.thicknessScaleRange ?? [1, 1];
+    for (const thing of this.#model.beside ?? []) thing.visible = isThrough || !this.#model.glass;
     this.#shadow.material.uniforms.darkness!.value = isThrough ? 0.18 : 0.55;
   }
 

@@ -13,6 +13,9 @@ import { preset, presets } from "../service/service";
 /** All presets; none until the film itself has its first colours. */
 export const allPresets = signal<readonly PresetEntry[]>([]);
 
+/** How many pictures are there: the next one is asked for then, so that they do not stand in the film's way. */
+export const picturesDone = signal(0);
+
 /** Ask for the presets once there is something to see, and again when the service comes back. */
 export function followPresets(): () => void {
   return effect(() => {

@@ -40,7 +40,7 @@ function sphere(): ShapeModel {
 }
 
 function teapot(): ShapeModel {
-  const geometry = new TeapotGeometry(0.66, 12);
+  const geometry = new TeapotGeometry(0.74, 12);
   geometry.rotateY(-0.5);
-  return { geometry, shadow: { y: -0.67, radius: 1.15 } };
+  return { geometry, shadow: { y: -0.75, radius: 1.25 } };
 }

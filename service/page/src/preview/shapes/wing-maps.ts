@@ -1,9 +1,17 @@
 /** What is drawn on a wing: veins and a margin that are dark, and a membrane of uneven thickness. */
 
-import { CanvasTexture } from "three";
+import { CanvasTexture, CatmullRomCurve3, Vector3 } from "three";
 
 /** Points (x, y) around a wing, its root first. */
 export type Outline = readonly (readonly [number, number])[];
+
+const AROUND = 96;
+
+/** Points on the smooth curve through an outline; the last one is the first again. */
+export function smooth(outline: Outline): [number, number][] {
+  const curve = new CatmullRomCurve3(outline.map(([x, y]) => new Vector3(x, y, 0)), true, "centripetal");
+  return curve.getPoints(AROUND).map(({ x, y }) => [x, y]);
+}
 
 /** Half the width and height of what the maps span: u from the body outwards, v upwards. */
 export const EXTENT = 1.4;
@@ -40,11 +48,11 @@ function pixel([x, y]: readonly [number, number]): [number, number] {
 function dark(draw: Draw, outline: Outline): void {
   draw.fillStyle = "#fff";
   draw.save();
-  trace(draw, outline);
+  trace(draw, smooth(outline));
   draw.fill();
   draw.clip();
-  draw.strokeStyle = "rgb(0 0 0 / 14%)";
-  for (let width = 4; width <= 74; width += 5) stroked(draw, outline, width);
+  draw.strokeStyle = "rgb(0 0 0 / 17%)";
+  for (let width = 6; width <= 96; width += 5) stroked(draw, margin(outline), width);
   draw.strokeStyle = "rgb(0 0 0 / 60%)";
   for (const vein of veins(outline)) line(draw, vein, 2.2);
   draw.restore();
@@ -53,13 +61,19 @@ function dark(draw: Draw, outline: Outline): void {
 /** Thinner towards the margin, and thicker along the veins. */
 function thick(draw: Draw, outline: Outline): void {
   draw.save();
-  trace(draw, outline);
+  trace(draw, smooth(outline));
   draw.clip();
   draw.strokeStyle = "rgb(60 60 60 / 8%)";
-  for (let width = 20; width <= 260; width += 24) stroked(draw, outline, width);
+  for (let width = 20; width <= 260; width += 24) stroked(draw, margin(outline), width);
   draw.strokeStyle = "rgb(190 190 190 / 12%)";
   for (const vein of veins(outline)) for (const width of [34, 22, 12]) line(draw, vein, width);
   draw.restore();
+}
+
+/** The edge away from the body. */
+function margin(outline: Outline): Outline {
+  const points = smooth(outline);
+  return points.slice(Math.round(0.24 * points.length), Math.round(0.78 * points.length));
 }
 
 /** From the root towards the outline, between the second and the last but one of its points. */
@@ -71,18 +85,14 @@ function veins(outline: Outline): [number, number][][] {
   });
 }
 
-function trace(draw: Draw, outline: Outline): void {
-  const points = outline.map(pixel);
-  const between = (a: readonly [number, number], b: readonly [number, number]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2] as const;
+function trace(draw: Draw, points: Outline): void {
   draw.beginPath();
-  draw.moveTo(...between(points.at(-1)!, points[0]!));
-  points.forEach((point, which) => draw.quadraticCurveTo(...point, ...between(point, points[(which + 1) % points.length]!)));
-  draw.closePath();
+  for (const point of points) draw.lineTo(...pixel(point));
 }
 
-function stroked(draw: Draw, outline: Outline, width: number): void {
+function stroked(draw: Draw, points: Outline, width: number): void {
   draw.lineWidth = width;
-  trace(draw, outline);
+  trace(draw, points);
   draw.stroke();
 }
 

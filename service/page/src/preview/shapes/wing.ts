@@ -14,7 +14,7 @@ import {
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 import type { ShapeModel } from "./shape";
-import { EXTENT, type Outline, wingMaps } from "./wing-maps";
+import { EXTENT, type Outline, smooth, wingMaps } from "./wing-maps";
 
 /** The right side, seen from above: the root first, then around. Own drawing after the outline of a Morpho. */
 const FORE: Outline = [
@@ -25,16 +25,15 @@ const HIND: Outline = [
   [0.06, 0.0], [0.42, 0.03], [0.78, 0.02], [0.99, -0.1], [1.04, -0.34], [0.94, -0.6], [0.76, -0.8], [0.55, -0.93],
   [0.38, -0.86], [0.24, -0.6], [0.12, -0.3],
 ];
-const AROUND = 96;
 const OUTWARDS = 16;
 const TILT = -0.85; // the insect sits on a slope that faces the camera
 
 export function wing(): ShapeModel {
   const cards = [card(HIND, 1, -0.03), card(HIND, -1, -0.03), card(FORE, 1, 0), card(FORE, -1, 0)];
-  const geometry = mergeGeometries(cards).rotateX(TILT);
+  const geometry = mergeGeometries(cards).rotateX(TILT).translate(0, 0.06, 0);
   const { darkness, thickness } = wingMaps([FORE, HIND]);
   return {
-    geometry: geometry.scale(0.95, 0.95, 0.95),
+    geometry,
     beside: body(),
     darkness,
     thickness,
@@ -46,11 +45,11 @@ export function wing(): ShapeModel {
 
 /** One wing, as rays from its root to its smooth outline. */
 function card(outline: Outline, side: 1 | -1, below: number): BufferGeometry {
-  const rim = new CatmullRomCurve3(outline.map(([x, y]) => new Vector3(x, y, 0)), true, "centripetal").getPoints(AROUND);
+  const rim = smooth(outline);
   const [rootX, rootY] = outline[0]!;
   const positions: number[] = [];
   const uvs: number[] = [];
-  for (const { x: rimX, y: rimY } of rim) {
+  for (const [rimX, rimY] of rim) {
     for (let step = 0; step <= OUTWARDS; step++) {
       const share = step / OUTWARDS;
       const [x, y] = [rootX + share * (rimX - rootX), rootY + share * (rimY - rootY)];
@@ -58,7 +57,7 @@ function card(outline: Outline, side: 1 | -1, below: number): BufferGeometry {
       uvs.push(x / EXTENT, 0.5 + y / (2 * EXTENT));
     }
   }
-  return surface(positions, uvs, side);
+  return surface(rim.length - 1, positions, uvs, side);
 }
 
 /** Height of a wing: raised from the body, and arched, as a membrane between veins is. */
@@ -66,12 +65,12 @@ function bend(x: number, y: number): number {
   return 0.42 * x - 0.2 * x * x + 0.012 * Math.sin(9 * Math.atan2(y + 0.05, x)) * x;
 }
 
-function surface(positions: number[], uvs: number[], side: 1 | -1): BufferGeometry {
+function surface(rays: number, positions: number[], uvs: number[], side: 1 | -1): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
   geometry.setAttribute("uv", new BufferAttribute(new Float32Array(uvs), 2));
   const triangles: number[] = [];
-  for (let ray = 0; ray < AROUND; ray++) {
+  for (let ray = 0; ray < rays; ray++) {
     for (let step = 0; step < OUTWARDS; step++) {
       const [a, b] = [ray * (OUTWARDS + 1) + step, (ray + 1) * (OUTWARDS + 1) + step];
       // outlines go clockwise on the right: their mirror images the other way around
