@@ -1,4 +1,4 @@
-"""The preview of the page: what it draws is the film of its table, from every side, and it says why where it cannot."""
+"""The preview of the page draws the film of its table, from every side, and says why where it cannot."""
 
 import io
 import json
@@ -28,11 +28,13 @@ LINEAR_BELOW = 0.78
 """The preview's tone curve leaves a pixel whose channels are all below 0.8 as it is."""
 
 
-def test_pixels_change_with_the_thickness_as_the_lookup_says(ready_page: "Page", service: Served, tmp_path: Path) -> None:
-    """A mirror shows radiance times R(n.v) in every pixel: two films under one light differ by the ratio of their R.
+def test_pixels_change_with_the_thickness_as_the_lookup_says(
+    ready_page: "Page", service: Served, tmp_path: Path
+) -> None:
+    """A mirror shows radiance times R(n.v) in every pixel: two films in one light differ as their R do.
 
-    n.v is that of a sphere of radius 1 around the origin, seen from `data-camera`; R is read by NumPy from the tables
-    that `data-table` names, at the thickness of the spec.
+    n.v is that of a sphere of radius 1 around the origin, seen from `data-camera`; R is read by NumPy from the
+    tables that `data-table` names, at the thickness of the spec.
     """
     page = ready_page
     page.goto(f"{page.url.split('#')[0]}{TITANIUM}")
@@ -84,7 +86,7 @@ def test_the_picture_is_named_after_the_film_the_shape_and_the_light(ready_page:
     ready_page.get_by_role("img", name="Anodised titanium on a teapot, studio light").wait_for()
 
 
-def test_without_webgl_the_page_says_so_and_shows_the_colours_flat(browser: "Browser", service: Served) -> None:
+def test_without_webgl_the_colours_are_shown_flat(browser: "Browser", service: Served) -> None:
     """A browser without 3D gets a disc of the film's colours, a sentence, and a page without errors."""
     flags = ["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"]
     program = shutil.which("chromium")
