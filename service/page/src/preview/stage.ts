@@ -39,7 +39,7 @@ export class Stage {
 
   /** @throws Error if there is no WebGL 2. */
   constructor(readonly canvas: HTMLCanvasElement, readonly onDrawn: (drawn: Lookup) => void) {
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, powerPreference: "high-performance" });
+    this.#renderer = new WebGLRenderer({ canvas, context: webgl(canvas) });
     setTone(this.#renderer);
     this.#scene.add(this.#shadow);
     canvas.addEventListener("webglcontextrestored", () => this.#relight());
@@ -103,7 +103,6 @@ export class Stage {
     this.#shadow.scale.setScalar(1.9 * model.shadow.radius);
     if (!this.#mesh || !this.#lookup) return;
     this.#mesh.geometry = model.geometry;
-    this.#mesh.material.needsUpdate = true; // maps come and go
     const { reflectance, transmittance } = forThisGpu(this.#lookup, this.#renderer);
     this.#mesh.material.setFilm(reflectance, this.#isSeenThrough() ? transmittance : undefined);
     this.#dress();
@@ -131,7 +130,6 @@ export class Stage {
       ior: glass?.ior ?? 1,
       thickness: glass?.thickness ?? 0,
       side: (isThrough && isThin) || this.#model.isCard ? DoubleSide : FrontSide, // a bubble has a front and a back
-      aoMap: this.#model.darkness ?? null,
     });
     material.color.setScalar(ground > 0 ? ground : 1);
     if (material.thicknessScaleMap !== this.#model.thickness) material.thicknessScaleMap = this.#model.thickness;
@@ -161,4 +159,11 @@ export class Stage {
     this.canvas.dataset.camera = this.#orbit.facts;
     this.onDrawn(drawn);
   }
+}
+
+/** Asked for here, because three complains on the console where there is none. */
+function webgl(canvas: HTMLCanvasElement): WebGL2RenderingContext {
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance" });
+  if (!context) throw new Error("expected WebGL 2, found none");
+  return context;
 }
