@@ -62,7 +62,7 @@ def test_nobody_is_kept_out_by_what_opens(open_page: OpenPage, screen: str) -> N
     page = open_page(**SCREENS[screen])
     page.wait_for_selector(":root[data-ready]", state="attached")
     page.get_by_role("combobox", name="Incident medium").fill("silver")
-    page.get_by_role("option").first.wait_for()
+    page.get_by_role("listbox", name="Materials").get_by_role("option").first.wait_for()
     assert not violations(page)
     page.keyboard.press("Escape")
     page.evaluate("for (const folded of document.querySelectorAll('details')) folded.open = true")
