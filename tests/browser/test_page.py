@@ -95,8 +95,7 @@ def test_nothing_sticks_out_of_the_screen(open_page: OpenPage, screen: str) -> N
     """Content reflows: a page is read by scrolling in one direction (WCAG 2.2, 1.4.10)."""
     page = open_page(**SCREENS[screen])
     page.wait_for_selector(":root[data-ready]", state="attached")
-    width, screen_width = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
-    assert width <= screen_width
+    assert page.evaluate("document.documentElement.scrollWidth") <= SCREENS[screen]["viewport"]["width"]
 
 
 def test_the_first_view_is_light(ready_page: "Page") -> None:
@@ -122,13 +121,13 @@ def test_an_edit_outlives_the_service(browser: "Browser", tmp_path: Path) -> Non
             drawn = drawn_table(page)
             thickness.fill("431")
             lost = page.get_by_role("status").filter(has_text="does not answer")
-            expect(lost).to_be_visible()
+            expect(lost).to_be_visible(timeout=30_000)
             expect(thickness).to_have_value("431")
             assert drawn_table(page) == drawn
             with serving(tmp_path / "store", port=port) as again:
                 again.await_ready()
                 expect(lost).to_be_hidden(timeout=30_000)
-                expect(page.locator(f"{PREVIEW}:not([data-table='{drawn}'])")).to_be_visible()
+                expect(page.locator(f"{PREVIEW}:not([data-table='{drawn}'])")).to_be_visible(timeout=30_000)
                 expect(thickness).to_have_value("431")
 
 
