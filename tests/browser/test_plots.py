@@ -138,7 +138,9 @@ def test_a_smooth_surface_has_a_ray(page: "Page") -> None:
     from playwright.sync_api import expect
 
     section = opened(page, FILM, "Scattering lobe", thetaDegrees=55)
-    expect(section.get_by_role("img", name=re.compile("all reflected light leaves at 55°"))).to_be_visible(timeout=LONG_MS)
+    expect(section.get_by_role("img", name=re.compile("all reflected light leaves at 55°"))).to_be_visible(
+        timeout=LONG_MS
+    )
 
 
 def test_curves_are_drawn_anew_for_the_dark(page: "Page") -> None:
