@@ -1,4 +1,4 @@
-"""The preview of the page: what it draws is the film of its table, from every side, and it says why where it cannot."""
+"""The preview of the page draws the film of its table, from every side, and says why where it cannot."""
 
 import io
 import json
@@ -16,10 +16,11 @@ from served import Served
 from visited_page import visited
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Locator, Page
+    from playwright.sync_api import Browser, Locator, Page
 
 FloatArray = NDArray[np.float64]
 
+CANVAS = "canvas.preview-canvas"
 TITANIUM = "#preset=anodised-titanium"
 SHAPES = ("Sphere", "Teapot", "Wing", "Lens")
 LIGHTS = ("Studio", "Overcast", "Sunset")
@@ -27,11 +28,13 @@ LINEAR_BELOW = 0.78
 """The preview's tone curve leaves a pixel whose channels are all below 0.8 as it is."""
 
 
-def test_pixels_change_with_the_thickness_as_the_lookup_says(ready_page: "Page", service: Served, tmp_path: Path) -> None:
-    """A mirror shows radiance times R(n.v) in every pixel: two films under one light differ by the ratio of their R.
+def test_pixels_change_with_the_thickness_as_the_lookup_says(
+    ready_page: "Page", service: Served, tmp_path: Path
+) -> None:
+    """A mirror shows radiance times R(n.v) in every pixel: two films in one light differ as their R do.
 
-    n.v is that of a sphere of radius 1 around the origin, seen from `data-camera`; R is read by NumPy from the tables
-    that `data-table` names, at the thickness of the spec.
+    n.v is that of a sphere of radius 1 around the origin, seen from `data-camera`; NumPy reads R from the
+    tables that `data-table` names, at the thickness of the spec.
     """
     page = ready_page
     page.goto(f"{page.url.split('#')[0]}{TITANIUM}")
@@ -83,17 +86,13 @@ def test_the_picture_is_named_after_the_film_the_shape_and_the_light(ready_page:
     ready_page.get_by_role("img", name="Anodised titanium on a teapot, studio light").wait_for()
 
 
-def test_without_webgl_the_page_says_so_and_shows_the_colours_flat(service: Served) -> None:
+def test_without_webgl_the_colours_are_shown_flat(browser: "Browser", service: Served) -> None:
     """A browser without 3D gets a disc of the film's colours, a sentence, and a page without errors."""
-    playwright = pytest.importorskip("playwright.sync_api", reason="the Python package playwright is missing")
-    program = shutil.which("chromium")
-    if program is None:
-        pytest.skip("a browser is missing: install the package chromium")
     flags = ["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"]
+    program = shutil.which("chromium")
     with (
-        playwright.sync_playwright() as run,
-        run.chromium.launch(executable_path=program, args=flags, chromium_sandbox=False) as browser,
-        visited(browser, f"{service.url}/{TITANIUM}") as page,
+        browser.browser_type.launch(executable_path=program, args=flags, chromium_sandbox=False) as flat,
+        visited(flat, f"{service.url}/{TITANIUM}") as page,
     ):
         page.wait_for_selector(":root[data-ready]", state="attached")
         page.get_by_text("no WebGL 2").wait_for()
@@ -102,7 +101,7 @@ def test_without_webgl_the_page_says_so_and_shows_the_colours_flat(service: Serv
 
 
 def _canvas(page: "Page") -> "Locator":
-    return page.locator("canvas[data-table]")
+    return page.locator(CANVAS)
 
 
 def _choose(page: "Page", choice: str) -> None:
@@ -113,13 +112,13 @@ def _choose(page: "Page", choice: str) -> None:
 def _set_thickness(page: "Page", thickness_nm: str) -> None:
     drawn = _canvas(page).get_attribute("data-table")
     page.get_by_role("textbox", name="Thickness of layer 1", exact=True).fill(thickness_nm)
-    page.wait_for_selector(f"canvas:not([data-table='{drawn}'])[data-size='128x65']")
+    page.wait_for_selector(f"{CANVAS}:not([data-table='{drawn}'])[data-size='128x65']")
     _await_stillness(page)
 
 
 def _await_stillness(page: "Page") -> None:
     """Wait until the last frame that was asked for is drawn, as finely as it will be."""
-    page.wait_for_selector("canvas[data-drawn='still']")
+    page.wait_for_selector(f"{CANVAS}[data-drawn='still']")
 
 
 def _table(page: "Page", service: Served, folder: Path) -> LookupTexture:

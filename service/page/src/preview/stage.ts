@@ -9,7 +9,7 @@ import { environment } from "./environment";
 import { finished } from "./finished";
 import { forThisGpu, freeTextures } from "./textures";
 import { Orbit } from "./orbit";
-import { Pace } from "./pace";
+import { type Mood, Pace } from "./pace";
 import { type ShapeModel, shapeModel } from "./shapes/shape";
 import { setTone } from "./tone";
 import type { Lookup } from "../state/lookup";
@@ -27,7 +27,7 @@ export class Stage {
   readonly #scene = new Scene();
   readonly #orbit = new Orbit(new PerspectiveCamera(26, 1, 0.5, 20));
   readonly #pace = new Pace(
-    (pixelRatio) => this.#draw(pixelRatio),
+    (pixelRatio, mood) => this.#draw(pixelRatio, mood),
     (mood) => void (this.canvas.dataset.drawn = mood),
   );
   readonly #shadow: Shadow = shadow();
@@ -39,7 +39,7 @@ export class Stage {
 
   /** @throws Error if there is no WebGL 2. */
   constructor(readonly canvas: HTMLCanvasElement, readonly onDrawn: (drawn: Lookup) => void) {
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, powerPreference: "high-performance" });
+    this.#renderer = new WebGLRenderer({ canvas, context: webgl(canvas) });
     setTone(this.#renderer);
     this.#scene.add(this.#shadow);
     canvas.addEventListener("webglcontextrestored", () => this.#relight());
@@ -103,7 +103,6 @@ export class Stage {
     this.#shadow.scale.setScalar(1.9 * model.shadow.radius);
     if (!this.#mesh || !this.#lookup) return;
     this.#mesh.geometry = model.geometry;
-    this.#mesh.material.needsUpdate = true; // maps come and go
     const { reflectance, transmittance } = forThisGpu(this.#lookup, this.#renderer);
     this.#mesh.material.setFilm(reflectance, this.#isSeenThrough() ? transmittance : undefined);
     this.#dress();
@@ -131,7 +130,6 @@ export class Stage {
       ior: glass?.ior ?? 1,
       thickness: glass?.thickness ?? 0,
       side: (isThrough && isThin) || this.#model.isCard ? DoubleSide : FrontSide, // a bubble has a front and a back
-      aoMap: this.#model.darkness ?? null,
     });
     material.color.setScalar(ground > 0 ? ground : 1);
     if (material.thicknessScaleMap !== this.#model.thickness) material.thicknessScaleMap = this.#model.thickness;
@@ -150,15 +148,24 @@ export class Stage {
     this.#pace.still();
   }
 
-  async #draw(pixelRatio: number): Promise<void> {
+  /** Only a lens shows fine lines: what else is seen through a film is soft, and costs most of a frame. */
+  async #draw(pixelRatio: number, mood: Mood): Promise<void> {
     const [width, height] = this.#size;
     const drawn = this.#lookup;
     if (this.#renderer.getContext().isContextLost() || !drawn) return;
     if (this.#renderer.getPixelRatio() !== pixelRatio) this.#renderer.setPixelRatio(pixelRatio);
     this.#renderer.setSize(width, height, false);
+    this.#renderer.transmissionResolutionScale = mood === "moving" ? 0.4 : (this.#model.glass ? 1 : 0.5);
     this.#renderer.render(this.#scene, this.#orbit.camera);
     await finished(this.#renderer.getContext() as WebGL2RenderingContext);
     this.canvas.dataset.camera = this.#orbit.facts;
     this.onDrawn(drawn);
   }
+}
+
+/** Asked for here, because three complains on the console where there is none. */
+function webgl(canvas: HTMLCanvasElement): WebGL2RenderingContext {
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance" });
+  if (!context) throw new Error("expected WebGL 2, found none");
+  return context;
 }

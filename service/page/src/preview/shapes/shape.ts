@@ -11,8 +11,6 @@ export interface ShapeModel {
   readonly geometry: BufferGeometry;
   /** Things that have no film. */
   readonly beside?: readonly Object3D[];
-  /** Where it is dark under the film: the red channel. */
-  readonly darkness?: Texture;
   /** Multiplies the thickness, over `thicknessScaleRange`: the green channel. */
   readonly thickness?: Texture;
   readonly thicknessScaleRange?: readonly [number, number];

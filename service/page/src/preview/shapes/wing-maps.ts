@@ -46,14 +46,14 @@ function pixel([x, y]: readonly [number, number]): [number, number] {
 }
 
 function dark(draw: Draw, outline: Outline): void {
-  draw.fillStyle = "#fff";
+  draw.fillStyle = "#000";
   draw.save();
   trace(draw, smooth(outline));
   draw.fill();
   draw.clip();
-  draw.strokeStyle = "rgb(0 0 0 / 17%)";
+  draw.strokeStyle = "rgb(255 255 255 / 17%)";
   for (let width = 6; width <= 96; width += 5) stroked(draw, margin(outline), width);
-  draw.strokeStyle = "rgb(0 0 0 / 60%)";
+  draw.strokeStyle = "rgb(255 255 255 / 60%)";
   for (const vein of veins(outline)) line(draw, vein, 2.2);
   draw.restore();
 }

@@ -5,9 +5,11 @@ import {
   BufferGeometry,
   CapsuleGeometry,
   CatmullRomCurve3,
+  DoubleSide,
   Mesh,
   MeshBasicMaterial,
   type Object3D,
+  type Texture,
   TubeGeometry,
   Vector3,
 } from "three";
@@ -34,13 +36,18 @@ export function wing(): ShapeModel {
   const { darkness, thickness } = wingMaps([FORE, HIND]);
   return {
     geometry,
-    beside: body(),
-    darkness,
+    beside: [...body(), pigment(geometry, darkness)],
     thickness,
     thicknessScaleRange: [0.85, 1.15],
     isCard: true,
     shadow: { y: -0.98, radius: 1.2 },
   };
+}
+
+/** Veins and margin, black upon the film: also where it is seen through. */
+function pigment(geometry: BufferGeometry, darkness: Texture): Mesh {
+  const look = { color: 0x050404, alphaMap: darkness, transparent: true, side: DoubleSide, depthWrite: false };
+  return new Mesh(geometry, new MeshBasicMaterial({ ...look, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4 }));
 }
 
 /** One wing, as rays from its root to its smooth outline. */
