@@ -60,7 +60,7 @@ function NamedField({ label, path, material, onMaterial, isReplacing, onBack }: 
       {onBack ? (
         <button type="button" onClick={onBack} aria-label={`${label}: keep ${described(material)}`}>Keep</button>
       ) : (
-        <button type="button" onClick={() => onMaterial(FIRST_CONSTANT)} aria-label={`${label}: n, k`} title="Give n and k">
+        <button type="button" onClick={() => onMaterial(FIRST_CONSTANT)} aria-label={`${label}: give n, k`} title="Give n and k">
           n, k
         </button>
       )}
@@ -117,7 +117,7 @@ function GivenField({ label, path, material, onReplace, onConstant }: ReplacedPr
     <div class="material-field" role="group" aria-label={label}>
       <span class="given">{described(material)}</span>
       <button type="button" onClick={onReplace} aria-label={`${label}: choose from the library`}>Library</button>
-      <button type="button" onClick={onConstant} aria-label={`${label}: n, k`}>n, k</button>
+      <button type="button" onClick={onConstant} aria-label={`${label}: give n, k`}>n, k</button>
       <FieldMessage id={useId()} message={refusalWords(problemAt(path))} />
     </div>
   );
