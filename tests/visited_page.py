@@ -44,7 +44,7 @@ class _Visit:
 
     def check(self) -> None:
         """Fail where anything was written down."""
-        assert not self.complaints
+        assert not self.complaints, self.complaints
         assert not self.strangers
 
     def _heard(self, message: "ConsoleMessage") -> None:

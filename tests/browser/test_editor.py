@@ -149,7 +149,9 @@ def test_a_material_that_is_not_there_is_not_chosen(page: "Page") -> None:
     expect(page.get_by_text('No material holds "unobtainium".')).to_be_visible()
     field.press("Enter")
     expect(field).to_have_value("unobtainium")
-    expect(field).to_have_accessible_description("Expected a material of the library, got 'unobtainium'; choose one of the list.")
+    expect(field).to_have_accessible_description(
+        "Expected a material of the library, got 'unobtainium'; choose one of the list."
+    )
     field.press("Escape")
     expect(field).to_have_value("air")
     expect(field).not_to_have_attribute("aria-invalid", "true")
@@ -161,7 +163,9 @@ def test_nonsense_is_kept_and_explained(page: "Page") -> None:
     thickness(page).press("Tab")
     expect(thickness(page)).to_have_value("abc")
     expect(thickness(page)).to_have_attribute("aria-invalid", "true")
-    expect(thickness(page)).to_have_accessible_description("Expected a thickness in nanometres, 0 or 1e-6 to 1e8, got 'abc'.")
+    expect(thickness(page)).to_have_accessible_description(
+        "Expected a thickness in nanometres, 0 or 1e-6 to 1e8, got 'abc'."
+    )
     expect(slider(page)).to_have_value(FIRST_NM)
     expect(page.get_by_role("button", name="Undo")).to_be_disabled()
     thickness(page).fill("400")
@@ -173,13 +177,15 @@ def test_a_refusal_stands_at_its_field_until_it_is_mended(page: "Page") -> None:
     """1e9 nm is more than the service takes (its spec): what it says is the description of the field."""
     thickness(page).fill("1e9")
     expect(thickness(page)).to_have_attribute("aria-invalid", "true")
-    expect(thickness(page)).to_have_accessible_description("Expected 0, or a thickness from 1e-06 to 1e+08 nm, got 1e+09.")
+    expect(thickness(page)).to_have_accessible_description(
+        "Expected 0, or a thickness from 1e-06 to 1e+08 nm, got 1e+09."
+    )
     thickness(page).fill("500")
     expect(thickness(page)).not_to_have_attribute("aria-invalid", "true")
 
 
 def test_a_material_is_held_beyond_its_data(page: "Page") -> None:
-    """Bodurov's titanium dioxide is known from 405 nm (its page), the film from 350 nm: one click mends it."""
+    """Bodurov's titanium dioxide is known from 405 nm (its page), the film wants 350 nm: a click mends it."""
     press(page, "Material of layer 1: choose from the library")
     field = page.get_by_role("combobox", name="Material of layer 1")
     field.fill("TiO2/Bodurov")

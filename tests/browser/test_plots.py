@@ -35,6 +35,7 @@ COLOURS_OF_CANVAS = """plot => {
     for (let at = 0; at < data.length; at += 4) colours.add(data.slice(at, at + 3).join());
     return [...colours].map(text => text.split(",").map(Number));
 }"""
+LONG_MS = 60_000
 FINE = "128x65"
 """Texels of the texture that is drawn once the film rests."""
 
@@ -54,11 +55,11 @@ def test_a_spectrum_is_said_in_words(page: "Page") -> None:
     """A reader who does not see the plot hears its range and where it is largest."""
     from playwright.sync_api import expect
 
-    section = opened(page, FILM, "Spectrum", thetaDegrees=0)
-    rows = numbers(section, "R and T in % at normal incidence")
+    section = opened(page, FILM, "Spectrum", thetaDegrees=10)
+    rows = numbers(section, "R and T in % at 10°")
     largest = int(rows[rows[:, 1].argmax(), 0])
-    words = f"Reflectance at normal incidence: .* to {rows[:, 1].max():.1f} %, largest at {largest} nm"
-    expect(section.get_by_role("img", name=re.compile(words))).to_be_visible()
+    words = f"Reflectance at 10°: .* to {rows[:, 1].max():.1f} %, largest at {largest} nm"
+    expect(section.get_by_role("img", name=re.compile(words))).to_be_visible(timeout=LONG_MS)
 
 
 def test_the_strip_has_the_colours_of_the_lookup_texture(
@@ -137,7 +138,9 @@ def test_a_smooth_surface_has_a_ray(page: "Page") -> None:
     from playwright.sync_api import expect
 
     section = opened(page, FILM, "Scattering lobe", thetaDegrees=55)
-    expect(section.get_by_role("img", name=re.compile("all reflected light leaves at 55°"))).to_be_visible()
+    expect(section.get_by_role("img", name=re.compile("all reflected light leaves at 55°"))).to_be_visible(
+        timeout=LONG_MS
+    )
 
 
 def test_curves_are_drawn_anew_for_the_dark(page: "Page") -> None:
@@ -170,8 +173,8 @@ def opened(page: "Page", spec: dict[str, Any], name: str, /, **view: float) -> "
     strip = page.locator(".strip canvas")
     before = strip.get_attribute("data-table")
     page.evaluate("fragment => { location.hash = fragment }", film_fragment(spec, **view))
-    expect(strip).not_to_have_attribute("data-table", before or "")
-    expect(strip).to_have_attribute("data-size", FINE)
+    expect(strip).not_to_have_attribute("data-table", before or "", timeout=LONG_MS)
+    expect(strip).to_have_attribute("data-size", FINE, timeout=LONG_MS)
     section = region(page, name)
     section.scroll_into_view_if_needed()
     return section
@@ -186,8 +189,8 @@ def numbers(section: "Locator", caption: str) -> NDArray[np.float64]:
     """Return the rows of a plot's table, without their units and what is no number."""
     from playwright.sync_api import expect
 
-    section.get_by_text("Numbers", exact=True).click()
-    expect(section.locator("caption")).to_have_text(caption)
+    section.get_by_text("Numbers", exact=True).click(timeout=LONG_MS)
+    expect(section.locator("caption")).to_have_text(caption, timeout=LONG_MS)
     rows = section.locator("tbody tr").all_inner_texts()
     return np.array([[float(cell.rstrip("°")) for cell in numeric(row)] for row in rows])
 

@@ -33,7 +33,7 @@ def test_pixels_change_with_the_thickness_as_the_lookup_says(
 ) -> None:
     """A mirror shows radiance times R(n.v) in every pixel: two films in one light differ as their R do.
 
-    n.v is that of a sphere of radius 1 around the origin, seen from `data-camera`; R is read by NumPy from the
+    n.v is that of a sphere of radius 1 around the origin, seen from `data-camera`; NumPy reads R from the
     tables that `data-table` names, at the thickness of the spec.
     """
     page = ready_page

@@ -10,7 +10,8 @@ export function typedNumber(text: string): number | undefined {
   return Number.isFinite(value) ? value : undefined;
 }
 
-/** A number as a field shows it: all of its digits that are not rounding. */
+/** A number as a field shows it: all of its digits that are not rounding; a very large one with its power of ten. */
 export function fieldText(value: number): string {
-  return String(Number(value.toPrecision(10)));
+  const rounded = Number(value.toPrecision(10));
+  return rounded >= 1e7 ? rounded.toExponential().replace("+", "") : String(rounded);
 }

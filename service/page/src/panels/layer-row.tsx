@@ -114,9 +114,9 @@ function More({ layer, place, name, grouping, onFields }: MoreProps) {
         <div class="more-fields">
           <span>
             <NumberField
-              label="Thickness varies by"
+              label="Varies by"
               value={thickness_sigma_nm}
-              unit="nm (standard deviation)"
+              unit="nm, standard deviation"
               expected="a standard deviation in nanometres, at most a fifth of the thickness"
               step={0.5}
               path={path}

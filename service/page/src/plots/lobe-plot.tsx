@@ -16,13 +16,16 @@ import "./lobe-plot.css";
 
 /** Powers of ten between the middle and the rim. */
 const DECADES = 4;
+/** Within a screen of what is seen, so that the lobe is there when the reader is. */
+const NEARLY_SEEN = "100% 0px";
 const VIEW = "-1.12 -1.16 2.24 1.22";
 
 export function LobePlot() {
   const place = useRef<HTMLDivElement>(null);
   useEffect(followLobe, []);
   useEffect(() => {
-    const observer = new IntersectionObserver(([entry]) => (isLobeSeen.value = entry?.isIntersecting ?? false));
+    const seen = ([entry]: IntersectionObserverEntry[]) => (isLobeSeen.value = entry?.isIntersecting ?? false);
+    const observer = new IntersectionObserver(seen, { rootMargin: NEARLY_SEEN });
     if (place.current) observer.observe(place.current);
     return () => observer.disconnect();
   }, []);

@@ -10,7 +10,7 @@ const MOST_PIXELS = 2; // per CSS pixel and axis
 export type Mood = "still" | "moving";
 
 /** Draws a frame so many device pixels per CSS pixel finely; done once the GPU is. */
-export type Draw = (pixelRatio: number) => Promise<void>;
+export type Draw = (pixelRatio: number, mood: Mood) => Promise<void>;
 
 export class Pace {
   #asked = false;
@@ -62,7 +62,7 @@ export class Pace {
     const finest = Math.min(devicePixelRatio, MOST_PIXELS);
     const share = this.#isMoving ? this.#affordable() : 1;
     const start = performance.now();
-    await this.draw(finest * share);
+    await this.draw(finest * share, this.#isMoving ? "moving" : "still");
     this.#measure((performance.now() - start) / share ** 2);
   }
 

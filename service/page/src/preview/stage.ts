@@ -9,7 +9,7 @@ import { environment } from "./environment";
 import { finished } from "./finished";
 import { forThisGpu, freeTextures } from "./textures";
 import { Orbit } from "./orbit";
-import { Pace } from "./pace";
+import { type Mood, Pace } from "./pace";
 import { type ShapeModel, shapeModel } from "./shapes/shape";
 import { setTone } from "./tone";
 import type { Lookup } from "../state/lookup";
@@ -27,7 +27,7 @@ export class Stage {
   readonly #scene = new Scene();
   readonly #orbit = new Orbit(new PerspectiveCamera(26, 1, 0.5, 20));
   readonly #pace = new Pace(
-    (pixelRatio) => this.#draw(pixelRatio),
+    (pixelRatio, mood) => this.#draw(pixelRatio, mood),
     (mood) => void (this.canvas.dataset.drawn = mood),
   );
   readonly #shadow: Shadow = shadow();
@@ -148,12 +148,14 @@ export class Stage {
     this.#pace.still();
   }
 
-  async #draw(pixelRatio: number): Promise<void> {
+  /** Only a lens shows fine lines: what else is seen through a film is soft, and costs most of a frame. */
+  async #draw(pixelRatio: number, mood: Mood): Promise<void> {
     const [width, height] = this.#size;
     const drawn = this.#lookup;
     if (this.#renderer.getContext().isContextLost() || !drawn) return;
     if (this.#renderer.getPixelRatio() !== pixelRatio) this.#renderer.setPixelRatio(pixelRatio);
     this.#renderer.setSize(width, height, false);
+    this.#renderer.transmissionResolutionScale = mood === "moving" ? 0.4 : (this.#model.glass ? 1 : 0.5);
     this.#renderer.render(this.#scene, this.#orbit.camera);
     await finished(this.#renderer.getContext() as WebGL2RenderingContext);
     this.canvas.dataset.camera = this.#orbit.facts;
