@@ -17,7 +17,7 @@ export class Pace {
   #drawing = false;
   #rest: ReturnType<typeof setTimeout> | undefined;
   #isMoving = false;
-  #fullMs = 0;
+  #fullMs = 200; // until a frame has been measured: rather coarse than late
 
   constructor(readonly draw: Draw, readonly onMood: (mood: Mood) => void) {}
 
@@ -71,9 +71,8 @@ export class Pace {
     return RATIOS.find((ratio) => this.#fullMs * ratio ** 2 <= MOVING_FRAME_MS) ?? ROUGHEST;
   }
 
-  /** The mean of the last few; the first frame compiles, and says little. */
+  /** The mean of the last few. A frame that compiles says little, and one with nothing to draw says nothing. */
   #measure(fullMs: number): void {
-    const bounded = Math.min(fullMs, 400);
-    this.#fullMs = this.#fullMs === 0 ? bounded : 0.6 * this.#fullMs + 0.4 * bounded;
+    if (fullMs > 1) this.#fullMs = 0.6 * this.#fullMs + 0.4 * Math.min(fullMs, 400);
   }
 }
