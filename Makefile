@@ -14,12 +14,12 @@ BIN := $(VENV)/bin
 export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 PIP_INSTALL := -m pip --disable-pip-version-check --no-input install --quiet
 
-.PHONY: help run serve test soak check bench docs clean
+.PHONY: help run serve page test soak check bench docs clean
 .DELETE_ON_ERROR:
 
 help:
 	@echo 'make run     tabulate a preset to EXR and draw it, into out/'
-	@echo 'make serve   run the HTTP service on http://localhost:8000'
+	@echo 'make serve   run the HTTP service and its page on http://localhost:8000'
 	@echo 'make test    run all tests'
 	@echo 'make check   look at style, types and layers'
 	@echo 'make docs    run what the documentation shows, make its pictures anew'
@@ -33,13 +33,17 @@ run: $(VENV)/.installed
 	@echo 'Picture of it:'
 	@$(BIN)/nacreous preview $(PRESET) -o out/$(subst /,-,$(PRESET)).png
 
-serve: $(VENV)/.installed
+serve: page
 	@$(BIN)/nacreous serve
 
-test: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(VENV)/.node $(VENV)/.tracing $(BLENDER_VENV)/.bpy
+test: page $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(VENV)/.node $(VENV)/.tracing $(BLENDER_VENV)/.bpy
 	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
 
-soak: $(VENV)/.group-test $(VENV)/.tracing
+# Installing builds the page; this builds it again where its sources have changed since, and is quick where not.
+page: $(VENV)/.group-page
+	@$(BIN)/python service/page/build.py
+
+soak: page $(VENV)/.group-test $(VENV)/.tracing
 	NACREOUS_SOAK=1 $(BIN)/python -m pytest tests/faults tests/web
 
 check: $(VENV)/.group-check
@@ -48,7 +52,7 @@ check: $(VENV)/.group-check
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
 
-docs: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(BLENDER_VENV)/.bpy
+docs: page $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(BLENDER_VENV)/.bpy
 	$(BIN)/python -m pytest tests/test_documentation.py
 	$(BIN)/python docs/make_images.py
 	PYTHONPATH=tests $(BIN)/python docs/make_client_images.py
@@ -57,7 +61,8 @@ bench: $(BENCH_VENV)/.group-$(BENCH_GROUP) $(BENCH_VENV)/.llvm
 	PYTHONPATH=tests $(BENCH_VENV)/bin/python -m bench
 
 clean:
-	rm -rf $(VENV) $(BENCH_VENV) $(BLENDER_VENV) out build dist .hypothesis .*_cache tests/node/node_modules
+	rm -rf $(VENV) $(BENCH_VENV) $(BLENDER_VENV) out build dist .hypothesis .*_cache \
+	    tests/node/node_modules service/page/node_modules service/nacreous/web/page
 
 # ---- environments: a stamp for each step, renewed when pyproject.toml changes ------------------------------
 

@@ -1,6 +1,7 @@
 """The package as it is installed: a wheel, and an archive of the sources that builds the same wheel."""
 
 import os
+import runpy
 import subprocess
 import sys
 import tarfile
@@ -8,6 +9,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
+
+from built_page import built_page
 
 ROOT = Path(__file__).parents[1]
 
@@ -25,7 +28,8 @@ NOT_PYTHON = {
 
 
 def build(source: Path, target: str, folder: Path) -> Path:
-    """Build a wheel or an sdist with the installed hatchling: nothing is downloaded."""
+    """Build a wheel or an sdist with the installed hatchling; the page is built once, for all of them."""
+    built_page()
     command = [sys.executable, "-m", "hatchling", "build", "-t", target, "-d", str(folder)]
     done = subprocess.run(command, cwd=source, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -65,6 +69,26 @@ def test_the_wheel_holds_the_packages_alone(wheel: Path) -> None:
     assert {top for top in tops if not top.endswith(".dist-info")} == {"nacreous", "nacreous_client"}
     assert not [name for name in names(wheel) if name.startswith("nacreous/clients/python/nacreous_client")]
     assert not [name for name in names(wheel) if "__pycache__" in name]
+
+
+def test_the_wheel_holds_the_page(wheel: Path) -> None:
+    """Every file that was built, each text compressed as well, and nothing that it was built with."""
+    page = built_page()
+    built = {f"nacreous/web/page/{file.relative_to(page)}" for file in page.rglob("*") if file.is_file()}
+    assert {"nacreous/web/page/index.html", "nacreous/web/page/index.html.gz"} <= built
+    assert {name for name in names(wheel) if name.startswith("nacreous/web/page/")} == built
+    assert not [name for name in names(wheel) if "node_modules" in name]
+
+
+def test_the_sources_hold_what_the_page_is_built_from(sdist: Path, tmp_path: Path) -> None:
+    """They have the page, and the very sources that it was built from, by their digest."""
+    with tarfile.open(sdist) as archive:
+        archive.extractall(tmp_path, filter="data")
+    (source,) = tmp_path.iterdir()
+    assert not list(source.rglob("node_modules"))
+    built = source / "service" / "nacreous" / "web" / "page" / "built-from.txt"
+    program = runpy.run_path(str(source / "service" / "page" / "build.py"))
+    assert program["digest_of_sources"]() == built.read_text()
 
 
 def test_the_sources_build_the_same_wheel(wheel: Path, sdist: Path, tmp_path: Path) -> None:

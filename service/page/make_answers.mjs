@@ -4,7 +4,7 @@
 import { readFileSync } from "node:fs";
 import { compile } from "json-schema-to-typescript";
 
-const NAMES = ["Spec", "TableAdded", "PresetAnswer", "PresetEntry", "MaterialAnswer", "MaterialList", "ProblemAnswer"];
+const NAMES = ["Spec", "TableAdded", "PresetAnswer", "PresetEntry", "MaterialAnswer", "MaterialList", "ProblemAnswer", "JobAccepted"];
 const OPTIONS = {
   additionalProperties: false,
   bannerComment: "/* Made from the service's OpenAPI document by make_answers.mjs; tests/web/test_page.py compares them. */",

@@ -51,6 +51,7 @@ def tables(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_contract_table(folder)
     nacreous.write(nacreous.tabulate(UNEQUAL), folder / "unequal.exr")
     nacreous.write(nacreous.tabulate(ALBEDO), folder / "albedo.exr")
+    nacreous.write(nacreous.tabulate(THINNER), folder / "thinner.exr")
     wide = CONTRACT_SPEC | {"colour": {"space": "ACEScg"}}
     nacreous.write(nacreous.tabulate(wide), folder / "acescg.exr")
     _write_foreign_exr(folder / "foreign.exr")
@@ -64,6 +65,9 @@ def tables(tmp_path_factory: pytest.TempPathFactory) -> Path:
 UNEQUAL = CONTRACT_SPEC | {
     "table": CONTRACT_SPEC["table"]
     | {"cos_theta": [0.0, 0.05, 0.15, 0.2, 0.4, 0.45, 1.0], "thickness_scale": [0.5, 0.6, 0.9, 1.5]}
+}
+THINNER = CONTRACT_SPEC | {
+    "stack": CONTRACT_SPEC["stack"] | {"layers": [{"material": {"n": 2.0}, "thickness_nm": 150}]}
 }
 ALBEDO = CONTRACT_SPEC | {
     "surface": {"distribution": "ggx", "alpha_x": 0.3, "alpha_y": 0.3},
@@ -166,7 +170,11 @@ def test_exchanged_tables_are_refused(page: WebPage) -> None:
 
 def _sphere(page: WebPage, **argument: object) -> tuple[np.ndarray, np.ndarray]:
     """Colours (P, 3) of a sphere's pixels and their cosines n.v (P,), without the rim of a pixel or two."""
-    colours = np.array(page.call("renderSphere", argument | {"size": SIZE}))
+    return _ball(page.call("renderSphere", argument | {"size": SIZE}))
+
+
+def _ball(pixels: list[list[float]]) -> tuple[np.ndarray, np.ndarray]:
+    colours = np.array(pixels)
     centre = (np.arange(SIZE) + 0.5) / SIZE * 2 - 1
     radius2 = np.add.outer(centre**2, centre**2).ravel()
     inside = radius2 < 0.95
@@ -195,6 +203,25 @@ def test_a_clone_looks_alike(page: WebPage) -> None:
     look = {"paths": [TABLE], "light": "white", "thicknessGreen": 0.25, "thicknessScaleRange": [0.5, 0.9]}
     clone, _ = _sphere(page, **look, isClone=True)
     np.testing.assert_array_equal(clone, _sphere(page, **look)[0])
+
+
+def test_another_table_takes_the_place_of_the_first_and_compiles_nothing(page: WebPage, tables: Path) -> None:
+    """After `setFilm` the sphere shows R(n.v) of the second table, by the program of the first."""
+    shown = page.call(
+        "renderAnotherFilm", {"size": SIZE, "paths": [TABLE], "otherPaths": ["/tables/thinner.exr"]}
+    )
+    colours, cos_theta = _ball(shown["pixels"])
+    expected = LookupTexture.read(tables / "thinner.exr").at(cos_theta, np.ones_like(cos_theta))
+    assert _mean_relative_error(colours, expected) < 0.01
+    assert shown["after"] == shown["before"]
+
+
+def test_a_table_of_transmission_comes_with_another_film(page: WebPage) -> None:
+    """A material that is to be seen through as well has another program."""
+    shown = page.call(
+        "renderAnotherFilm", {"size": SIZE, "paths": [TABLE], "otherPaths": [TABLE, TRANSMISSION]}
+    )
+    assert shown["after"]["version"] > shown["before"]["version"]
 
 
 def test_light_from_behind_is_the_colour_of_transmission(page: WebPage, tables: Path) -> None:

@@ -82,6 +82,17 @@ export class NacreousMaterial extends MeshPhysicalMaterial {
     this.#uniforms.nacreousThicknessScaleRange.value.set(atBlack, atWhite);
   }
 
+  /**
+   * Show another film, and free what was the old one's own on the GPU: no tables. Films whose `key`s are equal, such as
+   * two tables of R, share a program: then nothing is compiled.
+   */
+  setFilm(film: LookupTexture | Reflectance, transmittance?: LookupTexture): void {
+    const [before, after] = [this.#reflectance, asReflectance(film, transmittance)];
+    this.#reflectance = after;
+    if (after.key !== before.key) this.needsUpdate = true;
+    if (after !== before) before.dispose();
+  }
+
   override copy(source: this): this {
     super.copy(source);
     this.#reflectance = source.#reflectance;
@@ -105,8 +116,15 @@ export class NacreousMaterial extends MeshPhysicalMaterial {
   }
 
   override onBeforeCompile(program: WebGLProgramParametersWithUniforms): void {
-    Object.assign(program.uniforms, this.#reflectance.uniforms, this.#uniforms);
+    Object.assign(program.uniforms, this.#filmUniforms(), this.#uniforms);
     program.fragmentShader = withFilm(program.fragmentShader, this.#reflectance);
+  }
+
+  /** The uniforms of whatever film there is when they are read: a program outlives the films it draws. */
+  #filmUniforms(): Record<string, IUniform> {
+    const current = (name: string) => this.#reflectance.uniforms[name]?.value;
+    const names = Object.keys(this.#reflectance.uniforms);
+    return Object.fromEntries(names.map((name) => [name, { get value() { return current(name); } }]));
   }
 
   override onBeforeRender(): void {

@@ -24,8 +24,9 @@ from nacreous.web.limits import Limits
 from nacreous.web.observation import HeadAsGet, Observed, Problems
 from nacreous.web.openapi import use_openapi
 from nacreous.web.problems import Problem
-from nacreous.web.routes import jobs, materials, operations, page, presets, tables
+from nacreous.web.routes import jobs, materials, operations, presets, tables
 from nacreous.web.routes.docs import docs_routes
+from nacreous.web.routes.page import BUILT_PAGE, page_routes
 from nacreous.web.service import Service, make_service
 from nacreous.web.settings import Settings
 
@@ -35,7 +36,7 @@ _DESCRIPTION = """\
 Tabulated BSDFs of thin-film interference: a spec becomes a table, and a table becomes files that renderers
 load. Errors are problem+json (RFC 9457). Every GET is answered to HEAD as well."""
 
-_ROUTERS = (tables.router, presets.router, materials.router, jobs.router, operations.router, page.router)
+_ROUTERS = (tables.router, presets.router, materials.router, jobs.router, operations.router)
 
 
 def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
@@ -67,6 +68,7 @@ def create_app(settings: Settings, engine: Engine | None = None) -> FastAPI:
     for router in _ROUTERS:
         app.router.routes.extend(router.routes)  # one list: what a path answers to is looked up in it
     app.router.routes.extend(docs_routes(app.openapi_url or ""))
+    app.router.routes.extend(page_routes(BUILT_PAGE))
     app.add_exception_handler(HTTPException, _http_problem)
     app.add_exception_handler(RequestValidationError, _validation_problem)
     app.add_middleware(Problems)  # FastAPI answers 500 where an error leaves it; `_layers` has its own errors

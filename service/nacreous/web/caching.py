@@ -24,6 +24,7 @@ __all__ = [
     "Representation",
     "compressed",
     "header_of",
+    "takes_gzip",
 ]
 
 RawHeaders = list[tuple[bytes, bytes]]
@@ -91,7 +92,7 @@ def header_of(scope: Scope, name: bytes) -> bytes:
 def compressed(representation: Representation, scope: Scope) -> Representation:
     """Return the gzip form of a representation where the client takes it and asks for no range."""
     varies = replace(representation, varies=b"Accept-Encoding")
-    if not _takes_gzip(header_of(scope, b"accept-encoding")) or header_of(scope, b"range"):
+    if not takes_gzip(scope) or header_of(scope, b"range"):
         return varies
     tag = f"{representation.tag}-gzip"
     if _has_tag(header_of(scope, b"if-none-match"), tag):
@@ -100,8 +101,9 @@ def compressed(representation: Representation, scope: Scope) -> Representation:
     return replace(varies, payload=payload, tag=tag, encoding="gzip")
 
 
-def _takes_gzip(accept_encoding: bytes) -> bool:
-    for entry in accept_encoding.lower().split(b",")[:32]:
+def takes_gzip(scope: Scope) -> bool:
+    """Tell whether a request's Accept-Encoding has gzip."""
+    for entry in header_of(scope, b"accept-encoding").lower().split(b",")[:32]:
         coding, _, weight = entry.partition(b";")
         if coding.strip() in {b"gzip", b"x-gzip"}:
             return re.fullmatch(rb"\s*q=0(\.0*)?\s*", weight) is None

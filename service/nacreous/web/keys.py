@@ -13,8 +13,8 @@ __all__ = ["OPEN_PATHS", "Keys"]
 OPEN_PATHS = frozenset({"/", "/healthz", "/readyz"})
 """Paths that need no key: what a load balancer asks, and a page that says nothing of what is stored."""
 
-_DOCUMENTATION = ("/docs", "/openapi.json")
-"""What a browser opens without a key; it says nothing of what is stored."""
+_OPENED_BY_A_BROWSER = ("/docs", "/openapi.json", "/assets/")
+"""What a browser loads, which has no key yet; it says nothing of what is stored."""
 
 _CHALLENGE = 'Bearer realm="nacreous"'
 
@@ -28,7 +28,7 @@ class Keys:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, or raise `ProblemError` 401."""
         path = scope["path"]
-        if path not in OPEN_PATHS and not path.startswith(_DOCUMENTATION) and not self._known(scope):
+        if path not in OPEN_PATHS and not path.startswith(_OPENED_BY_A_BROWSER) and not self._known(scope):
             headers = {"WWW-Authenticate": _CHALLENGE}
             detail = "expected the header Authorization: Bearer with a key of this service"
             raise ProblemError(HTTPStatus.UNAUTHORIZED, "key", detail, headers=headers)

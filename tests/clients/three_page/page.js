@@ -121,3 +121,18 @@ window.renderSphere = async ({ light, size, mirror, isClone, ...parameters }) =>
   scene.add(new THREE.Mesh(new THREE.SphereGeometry(1, 256, 128), isClone ? material.clone() : material));
   return pixels(scene, camera, size, size);
 };
+
+/** A sphere of one film, and again once its material shows another: its pixels, and how many programs there are. */
+window.renderAnotherFilm = async ({ size, paths, otherPaths }) => {
+  const scene = new THREE.Scene();
+  LIGHTS.white(scene);
+  const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 10);
+  camera.position.z = 5;
+  const material = await filmMaterial({ paths });
+  scene.add(new THREE.Mesh(new THREE.SphereGeometry(1, 256, 128), material));
+  pixels(scene, camera, size, size);
+  const before = { programs: renderer.info.programs.length, version: material.version };
+  material.setFilm(...(await load(otherPaths)));
+  const after = pixels(scene, camera, size, size);
+  return { pixels: after, before, after: { programs: renderer.info.programs.length, version: material.version } };
+};

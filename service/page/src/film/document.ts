@@ -1,10 +1,14 @@
 /** The spec as it is edited: the service's own document, and changes of it. No change touches the old one. */
 
-import type { Group, Layer, Spec } from "../service/answers";
+import type { Group, Layer, Spec, Surface } from "../service/answers";
 
 /** What the service accepts as a spec; fields that are left out have its defaults. */
 export type SpecDocument = Spec;
 export type Entry = Layer | Group;
+export type Material = Layer["material"];
+/** The half-spaces on both sides of the film. */
+export type Medium = "incident" | "substrate";
+export type Table = NonNullable<SpecDocument["table"]>;
 export type Change = (spec: SpecDocument) => SpecDocument;
 
 /** Where a layer lies: its index in the stack, and within a group its index there. */
@@ -47,10 +51,14 @@ export function removeLayer({ entry, member }: Place): Change {
   return (spec) => {
     const group = spec.stack.layers[entry];
     if (member === undefined || !group || !isGroup(group) || group.layers.length === 1) {
-      return withLayers(spec, (layers) => layers.toSpliced(entry, 1));
+      return removeEntry(entry)(spec);
     }
     return withEntry(spec, entry, () => ({ ...group, layers: group.layers.toSpliced(member, 1) }));
   };
+}
+
+export function removeEntry(at: number): Change {
+  return (spec) => withLayers(spec, (layers) => layers.toSpliced(at, 1));
 }
 
 /** Move an entry of the stack, a layer or a group, to another index. */
@@ -60,6 +68,33 @@ export function moveEntry(from: number, to: number): Change {
       const moved = layers[from];
       return moved === undefined ? layers : layers.toSpliced(from, 1).toSpliced(to, 0, moved);
     });
+}
+
+/** Move a layer within its group; beyond its ends it leaves the group, unless it is the only one there. */
+export function moveMember({ entry, member = 0 }: Place, by: -1 | 1): Change {
+  return (spec) => {
+    const group = spec.stack.layers[entry];
+    if (!group || !isGroup(group)) return spec;
+    const moved = group.layers[member];
+    if (!moved) return spec;
+    const others = group.layers.toSpliced(member, 1);
+    const to = member + by;
+    if (to >= 0 && to < group.layers.length) {
+      return withEntry(spec, entry, () => ({ ...group, layers: others.toSpliced(to, 0, moved) }));
+    }
+    if (others.length === 0) return spec;
+    const left = { ...group, layers: others };
+    return withLayers(spec, (layers) => layers.toSpliced(entry, 1, ...(by < 0 ? [moved, left] : [left, moved])));
+  };
+}
+
+/** Put a layer right behind another, into the same group where that is in one. */
+export function insertAfter({ entry, member }: Place, layer: Layer): Change {
+  if (member === undefined) return addLayer(entry + 1, layer);
+  return (spec) =>
+    withEntry(spec, entry, (group) =>
+      isGroup(group) ? { ...group, layers: group.layers.toSpliced(member + 1, 0, layer) } : group,
+    );
 }
 
 /** Make a layer a group, or put it into the group before it. */
@@ -82,6 +117,26 @@ export function ungroup(at: number): Change {
       const group = layers[at];
       return group && isGroup(group) ? layers.toSpliced(at, 1, ...group.layers) : layers;
     });
+}
+
+export function setMedium(medium: Medium, material: Material): Change {
+  return (spec) => ({ ...spec, stack: { ...spec.stack, [medium]: material } });
+}
+
+export function setName(name: string): Change {
+  return (spec) => ({ ...spec, name });
+}
+
+export function setSurface(fields: Partial<Surface> | null): Change {
+  return (spec) => ({ ...spec, surface: fields && { ...spec.surface, ...fields } });
+}
+
+export function setTable(fields: Partial<Table>): Change {
+  return (spec) => ({ ...spec, table: { ...spec.table, ...fields } });
+}
+
+export function setColour(fields: Partial<NonNullable<SpecDocument["colour"]>>): Change {
+  return (spec) => ({ ...spec, colour: { ...spec.colour, ...fields } });
 }
 
 function withLayers(spec: SpecDocument, change: (layers: Entry[]) => Entry[]): SpecDocument {

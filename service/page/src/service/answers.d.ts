@@ -18,6 +18,7 @@ export interface Answers {
   MaterialAnswer?: MaterialAnswer;
   MaterialList?: MaterialList;
   ProblemAnswer?: ProblemAnswer;
+  JobAccepted?: JobAccepted;
 }
 /**
  * A thin-film structure and the table wanted of it.
@@ -290,4 +291,58 @@ export interface ProblemAnswer {
   expected?: string | null;
   got?: string | null;
   remedy?: string | null;
+}
+/**
+ * A spec that takes too long to wait for: a job computes it.
+ */
+export interface JobAccepted {
+  job: JobAnswer;
+  links: {
+    [k: string]: string;
+  };
+}
+/**
+ * A job and its finished tables, one page of them.
+ */
+export interface JobAnswer {
+  id: string;
+  /**
+   * queued, running, done, failed or cancelled.
+   */
+  state: string;
+  done: number;
+  failed: number;
+  total: number;
+  fraction: number;
+  failures: FailureAnswer[];
+  created: string;
+  formats: string[];
+  error?: string | null;
+  links: {
+    [k: string]: string;
+  };
+  tables: JobTable[];
+}
+/**
+ * A table of a job that could not be made.
+ */
+export interface FailureAnswer {
+  /**
+   * Its index in the sweep.
+   */
+  spec: number;
+  message: string;
+}
+/**
+ * A finished table of a job.
+ */
+export interface JobTable {
+  /**
+   * Its index in the sweep: the last of the paths, in their order, varies fastest.
+   */
+  spec: number;
+  id: string;
+  links: {
+    [k: string]: string;
+  };
 }

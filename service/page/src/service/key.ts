@@ -6,8 +6,12 @@ const STORED = "nacreous:key";
 
 export const key = signal(sessionStorage.getItem(STORED) ?? "");
 
+/** Whether the service has asked for a key, or for another one. */
+export const keyWanted = signal(false);
+
 export function useKey(value: string): void {
   key.value = value;
+  keyWanted.value = false;
   sessionStorage.setItem(STORED, value);
 }
 

@@ -1,18 +1,30 @@
 /** The requests of the page, one function each. All of them go to where the page itself has come from. */
 
-import type { MaterialAnswer, MaterialList, PresetAnswer, PresetEntry, TableAdded } from "./answers";
-import { bearerKey } from "./key";
+import type { JobAccepted, MaterialAnswer, MaterialList, PresetAnswer, PresetEntry, TableAdded } from "./answers";
+import { bearerKey, keyWanted } from "./key";
 import { LostError, type Problem, ProblemError } from "./problem";
 import type { SpecDocument } from "../film/document";
 
 const UNAVAILABLE = new Set([429, 503]);
+const UNAUTHORIZED = 401;
 const MOST_RETRIES = 4;
+export const ACCEPTED = 202;
 
-/** Tabulate a spec. @throws ProblemError, LostError */
+/** Tabulate a spec at once; what takes longer is not begun. @throws ProblemError, LostError */
 export async function addTable(spec: SpecDocument, signal?: AbortSignal): Promise<TableAdded> {
   const body = JSON.stringify(spec);
   const response = await answered("v1/tables", { method: "POST", body, headers: { "Content-Type": "application/json" } }, signal);
+  if (response.status === ACCEPTED) throw new ProblemError(await tooLong(response));
   return response.json();
+}
+
+/** A job is no way to follow a film that is being edited: it is called off. */
+async function tooLong(accepted: Response): Promise<Problem> {
+  const { job }: JobAccepted = await accepted.json();
+  await answered(`v1/jobs/${job.id}`, { method: "DELETE" });
+  const detail = "A table as fine as this takes the service too long to follow the film live";
+  const remedy = "its files can still be made; several layers of uneven thickness cost the most";
+  return { type: "about:blank", title: "Takes too long", status: ACCEPTED, detail, remedy };
 }
 
 /** Get a file by its link. @throws ProblemError, LostError */
@@ -43,6 +55,11 @@ export async function material(name: string, signal?: AbortSignal): Promise<Mate
   return (await answered(`v1/materials/${encodeURI(name)}`, {}, signal)).json();
 }
 
+/** The version that answers. @throws LostError */
+export async function serviceVersion(): Promise<string> {
+  return (await (await answered("healthz")).json()).version;
+}
+
 /** Whether the service answers at all. */
 export async function isAlive(): Promise<boolean> {
   try {
@@ -57,10 +74,12 @@ export function relative(link: string): string {
   return link.replace(/^\//, "");
 }
 
-async function answered(address: string, init: RequestInit = {}, signal?: AbortSignal): Promise<Response> {
+/** The answer to a request; asked again where the service is busy. @throws ProblemError, LostError */
+export async function answered(address: string, init: RequestInit = {}, signal?: AbortSignal): Promise<Response> {
   for (let retry = 0; ; retry++) {
     const response = await sent(address, init, signal);
     if (response.ok) return response;
+    if (response.status === UNAUTHORIZED) keyWanted.value = true;
     if (!UNAVAILABLE.has(response.status) || retry === MOST_RETRIES) throw new ProblemError(await problemOf(response));
     await pause(Number(response.headers.get("Retry-After") ?? 1), signal);
   }

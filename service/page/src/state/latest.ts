@@ -12,12 +12,20 @@ export class Latest<Asked> {
     if (!this.#running) void this.#run();
   }
 
-  async #run(): Promise<void> {
-    this.#running = true;
+  async #workOff(): Promise<void> {
     for (let asked = this.#waiting; asked !== undefined; asked = this.#waiting) {
       this.#waiting = undefined;
       await this.work(asked);
     }
-    this.#running = false;
+  }
+
+  /** Work that fails leaves the way free for what is asked for next. */
+  async #run(): Promise<void> {
+    this.#running = true;
+    try {
+      await this.#workOff();
+    } finally {
+      this.#running = false;
+    }
   }
 }

@@ -1,7 +1,7 @@
 /** The film's lookup textures: coarse ones while the spec changes, fine ones when it rests. */
 
 import { effect } from "@preact/signals";
-import { type LookupTexture, parseLookupTexture } from "@nacreous/three";
+import type { LookupTexture } from "@nacreous/three";
 
 import { returns } from "./connection";
 import { follower } from "./asking";
@@ -9,7 +9,7 @@ import { spec } from "./editor";
 import type { SpecDocument } from "../film/document";
 import { COARSE, FINE, lookupSpec, type Size } from "../film/views";
 import type { TableAdded } from "../service/answers";
-import { addTable, file } from "../service/service";
+import { made, tabulated } from "../service/jobs";
 
 const REST_MS = 200;
 
@@ -43,12 +43,18 @@ interface Asked {
 }
 
 async function fetchLookup({ spec: document, size }: Asked): Promise<Lookup> {
-  const table = await addTable(lookupSpec(document, size));
+  const table = await tabulated(lookupSpec(document, size), unwatched);
   const [reflectance, transmittance] = await Promise.all([texture(table.links.exr), texture(table.links["exr-transmission"])]);
   if (!reflectance) throw new Error("expected a link to the lookup texture, found none");
   return { reflectance, ...(transmittance ? { transmittance } : {}), table, size, spec: document };
 }
 
+/** A job's progress, of which the page says nothing: the last colours stay until the next are there. */
+function unwatched(): void {}
+
 async function texture(link: string | undefined): Promise<LookupTexture | undefined> {
-  return link === undefined ? undefined : parseLookupTexture(await file(link));
+  if (link === undefined) return undefined;
+  // three is loaded while the service computes: nobody waits for one and then for the other.
+  const [{ parseLookupTexture }, response] = await Promise.all([import("@nacreous/three"), made(link, unwatched)]);
+  return parseLookupTexture(await response.arrayBuffer());
 }

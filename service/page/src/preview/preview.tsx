@@ -1,0 +1,126 @@
+/** The film on a shape, in light. */
+
+import { effect, signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+
+import { Choice } from "./choice";
+import "./preview.css";
+import type { Stage } from "./stage";
+import { drawSwatch } from "./swatch";
+import { watchTheme } from "./theme";
+import { turnBy } from "./turning";
+import { spec } from "../state/editor";
+import { FINE } from "../film/views";
+import { type Lookup, lookup } from "../state/lookup";
+import { type Light, LIGHTS, light, type Shape, SHAPES, shape } from "../state/view";
+
+const CALLED: Readonly<Record<Shape, string>> = { sphere: "a sphere", teapot: "a teapot", wing: "butterfly wings", lens: "a lens" };
+const LIT: Readonly<Record<Light, string>> = { studio: "studio light", overcast: "an overcast sky", sunset: "sunset" };
+
+/** Why there is no WebGL; empty where there is. */
+const missing = signal("");
+
+export function Preview() {
+  return (
+    <section class="preview" aria-labelledby="preview-title">
+      <h2 id="preview-title" class="preview-title">
+        Preview
+      </h2>
+      {missing.value ? <Flat /> : <Solid />}
+      <div class="preview-choices">
+        <Choice legend="Shape" values={SHAPES} chosen={shape} />
+        <Choice legend="Light" values={LIGHTS} chosen={light} />
+      </div>
+    </section>
+  );
+}
+
+function Solid() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => staged(canvas.current!), []);
+  return (
+    <>
+      <canvas
+        ref={canvas}
+        class="preview-canvas"
+        role="img"
+        tabIndex={0}
+        aria-label={`${spec.value.name || "The film"} on ${CALLED[shape.value]}, ${LIT[light.value]}`}
+        aria-describedby="preview-hint"
+      />
+      <p id="preview-hint" class="preview-hint">
+        Drag or use the arrow keys to turn. Home turns back.
+      </p>
+    </>
+  );
+}
+
+/** Without WebGL: why, and the colours as they are. */
+function Flat() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const film = lookup.value.answer?.reflectance;
+  useEffect(() => {
+    if (film && canvas.current) drawSwatch(canvas.current, film);
+  }, [film]);
+  return (
+    <div class="preview-flat">
+      <canvas ref={canvas} width={320} height={320} role="img" aria-label={`Colours of ${spec.value.name || "the film"} over the angle`} />
+      <p role="status">
+        This browser offers no WebGL 2, which the preview is drawn with. The disc shows the colours of the film from
+        straight ahead in the middle to grazing at its edge.
+      </p>
+    </div>
+  );
+}
+
+/** Keep a canvas drawn until the returned function is called. */
+function staged(canvas: HTMLCanvasElement): () => void {
+  const ended = new AbortController();
+  import("./stage").then(({ Stage }) => {
+    if (!ended.signal.aborted) perform(new Stage(canvas, (drawn) => note(canvas, drawn)), canvas, ended.signal);
+  }).catch((error: unknown) => {
+    missing.value = error instanceof Error ? error.message : String(error);
+    effect(() => void (isSettled(lookup.value.answer) && setReady()));
+  });
+  return () => ended.abort();
+}
+
+function perform(stage: Stage, canvas: HTMLCanvasElement, signal: AbortSignal): void {
+  const theme = watchTheme(signal);
+  const sizes = new ResizeObserver(() => stage.resize(canvas.clientWidth, canvas.clientHeight));
+  sizes.observe(canvas);
+  turnBy(canvas, stage, signal);
+  const stops = [
+    effect(() => stage.show({ shape: shape.value, light: light.value, theme: theme.value })),
+    effect(() => wear(stage)),
+    () => sizes.disconnect(),
+    () => stage.dispose(),
+  ];
+  signal.addEventListener("abort", () => stops.forEach((stop) => stop()));
+}
+
+let worn: Lookup | undefined;
+
+function wear(stage: Stage): void {
+  const { answer, problem } = lookup.value;
+  if (problem) setReady();
+  if (!answer || answer === worn) return;
+  worn = answer;
+  stage.wear(answer, answer.size === FINE ? "fine" : "coarse");
+}
+
+/** What has been drawn, for whoever cannot see it. */
+function note(canvas: HTMLCanvasElement, { table, size }: Lookup): void {
+  canvas.dataset.table = table.id;
+  canvas.dataset.size = `${size.cosTheta}x${size.scales}`;
+  if (size === FINE) setReady();
+}
+
+function setReady(): void {
+  document.documentElement.dataset.ready = "";
+}
+
+function isSettled(answer: Lookup | undefined): boolean {
+  return answer?.size === FINE || lookup.value.problem !== undefined;
+}
+
