@@ -1,4 +1,4 @@
-"""What tables in pyproject.toml cannot say of a wheel and of an sdist; hatchling calls this while it builds them.
+"""What tables in pyproject.toml cannot say of a wheel and an sdist; hatchling calls this while it builds.
 
 Both hold the page of the service as it is built from `service/page`, so that what is installed from either
 has it; an editable installation builds it beside its sources.

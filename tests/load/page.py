@@ -26,7 +26,7 @@ new MutationObserver((_, observer) => {
 """Times the moment from the start of the navigation: no poll from outside is as exact."""
 
 MOVE = """async (slider) => {
-  const canvas = document.querySelector("canvas[data-table]");
+  const canvas = document.querySelector(".preview-canvas");
   const least = Number(slider.min), most = Number(slider.max), step = Number(slider.step) || 1;
   const value = Number(slider.value);
   const next = value + 7 * step <= most ? value + 7 * step : least;
@@ -43,7 +43,7 @@ MOVE = """async (slider) => {
 }"""
 """Moves a slider once; milliseconds until the frame that follows the drawing of another table."""
 
-RESTED = "() => document.querySelector('canvas[data-table]').dataset.size === window.fineSize"
+RESTED = "() => document.querySelector('.preview-canvas').dataset.size === window.fineSize"
 
 
 def main() -> None:
@@ -82,8 +82,8 @@ def print_slider(browser: "Browser", url: str) -> None:
         page = context.new_page()
         page.goto(url)
         await_ready(page)
-        page.evaluate("window.fineSize = document.querySelector('canvas[data-table]').dataset.size")
-        slider = page.locator("input[type=range]").and_(page.get_by_label("Thickness")).first.element_handle()
+        page.evaluate("window.fineSize = document.querySelector('.preview-canvas').dataset.size")
+        slider = page.get_by_role("slider", name="Thickness of layer 1").element_handle()
         print_quantiles("slider to pixels, dragged", [move_ms(slider) for _ in range(MOVES)])
         print_quantiles("slider to pixels, from rest", list(rested_moves_ms(page, slider)))
 
