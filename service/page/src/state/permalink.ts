@@ -30,6 +30,7 @@ export async function followLink(): Promise<void> {
 }
 
 async function openLink(): Promise<void> {
+  handled = location.hash;
   linkMessage.value = "";
   try {
     const link = await readFragment(location.hash);
@@ -56,12 +57,17 @@ function currentView(): View {
   return { shape: shape.value, light: light.value, thetaDegrees: thetaDegrees.value };
 }
 
+/** The fragment that the page has opened or written. */
+let handled = "";
+
 async function keepAddress(document: SpecDocument, name: string, view: View, opened: SpecDocument): Promise<void> {
   const fragment = name ? presetFragment(name, changedView(view)) : await filmFragment(document, view);
   if (document !== spec.peek()) return; // changed meanwhile: a later call writes
+  if (location.hash !== handled) return; // another link has been entered, and is about to be opened
   permalink.value = new URL(`#${fragment}`, location.href).href;
   // The address of a page that has just been opened stays as short as it is.
   if (location.hash || document !== opened) history.replaceState(history.state, "", permalink.value);
+  handled = location.hash;
 }
 
 function changedView(view: View): Partial<View> {
