@@ -1,6 +1,8 @@
 """A table's id: what decides it, and what does not."""
 
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -111,3 +113,19 @@ def test_the_kernels_matter(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> 
     film = kernels / "film.clh"
     film.write_text(film.read_text() + "// another\n")
     assert _id() != before
+
+
+@pytest.mark.parametrize("name", ["dichroic", "anodised-titanium"])
+def test_what_else_is_imported_does_not_matter(name: str) -> None:
+    """colour-science changes how NumPy prints numbers: tables of materials are read without printing them."""
+    told = (
+        f"from nacreous.tables import presets, identity; print(identity.table_id(presets.preset('{name}')))"
+    )
+    ids = [
+        subprocess.run(
+            [sys.executable, "-c", before + told], capture_output=True, text=True, check=True
+        ).stdout
+        for before in ("", "import colour; ")
+    ]
+    assert ids[0] == ids[1]
+    assert len(ids[0].strip()) == 64

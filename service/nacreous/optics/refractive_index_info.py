@@ -163,7 +163,8 @@ def _table(model: "Tabulated") -> Curve:
 
 
 def _decimals(stored: NDArray[np.float32]) -> NDArray[np.float64]:
-    return stored.astype(np.str_).astype(np.float64)
+    # Not by astype(str), whose digits are those of NumPy's print options: colour-science changes them.
+    return np.array([_decimal(value) for value in stored])
 
 
 def _decimal(stored: Any) -> Any:  # noqa: ANN401 - a number, or tuples of numbers
