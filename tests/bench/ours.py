@@ -11,9 +11,9 @@ from nacreous.opencl.film_problem import FilmProblem, Segment
 from nacreous.opencl.precision import Precision
 from reference import Intensities
 
-TRANSPARENT_FLOP, DECAYING_FLOP = 48, 115
+TRANSPARENT_FLOP, DECAYING_FLOP = 44, 107
 """Multiplications and additions to cross a layer (kernels/polynomial_layer.clh, field.clh): two or four
-polynomials of degree 5, 20 or 40, the fields of both polarisations 24 or 56, the rest products."""
+polynomials of degree 4, 16 or 32, the fields of both polarisations 24 or 56, the rest products."""
 
 FLOP_PER_LAYER_EVALUATION = (6 * TRANSPARENT_FLOP + 4 * DECAYING_FLOP) / 10
 """Ten layers, four absorbing."""

@@ -16,7 +16,7 @@ from reference import film
 
 MU = np.concatenate([[0.0, 1e-6, 1e-3], np.linspace(0.01, 1, 61)])
 WAVELENGTH_NM = np.linspace(380, 780, 45)
-LAYER_TOLERANCE = 1e-6
+LAYER_TOLERANCE = 1.5e-6
 """What a layer may add to the error in single precision; waves add as much."""
 
 FILMS = {
@@ -50,7 +50,7 @@ def largest_error(device: Device, problem: FilmProblem, lanes: int | None = None
 
 
 @pytest.mark.parametrize("name", FILMS)
-@pytest.mark.parametrize(("factor", "degree"), [(1.0, DEGREES[0]), (2.0, DEGREES[1])])
+@pytest.mark.parametrize(("factor", "degree"), [(1.0, DEGREES[0]), (2.0, DEGREES[1]), (3.0, DEGREES[2])])
 def test_thin_films_agree_with_the_reference(name: str, factor: float, degree: int, device: Device) -> None:
     """From grazing to normal incidence, clear, absorbing and metal, as exactly as waves do."""
     problem = thin_film(name, factor)
@@ -66,13 +66,13 @@ def test_every_width_of_lanes_agrees(name: str, device: Device) -> None:
 
 
 def test_random_thin_films_agree_with_the_reference(device: Device) -> None:
-    """Up to twelve layers of up to 140 nm, n from 1 to 3.5, k over five decades: every one is polynomials."""
+    """Up to twelve layers of up to 110 nm, n from 1 to 3.5, k over five decades: every one is polynomials."""
     rng = np.random.default_rng(11)
     for _ in range(40):
         layers = int(rng.integers(1, 13))
         k = np.where(rng.random(layers) < 0.5, 0, 10 ** rng.uniform(-4, 0.5, layers))
         n = [1, *(rng.uniform(1, 3.5, layers) + 1j * k), rng.uniform(1.3, 3) + 0.1j]
-        problem = one_run(plain_problem(n, rng.uniform(0.5, 140, layers), WAVELENGTH_NM, MU))
+        problem = one_run(plain_problem(n, rng.uniform(0.5, 110, layers), WAVELENGTH_NM, MU))
         assert layer_degree(problem, Precision.SINGLE) == DEGREES[0]
         assert largest_error(device, problem) <= tolerance(layers)
 
@@ -111,11 +111,11 @@ def test_every_thickness_has_coefficients_of_its_own(device: Device) -> None:
 @pytest.mark.parametrize("degree", DEGREES)
 def test_a_cosine_is_interpolated_within_its_bound(degree: int) -> None:
     """cos(sqrt z) on an interval of half width h: h^(D + 1) / ((2 D + 2)! 2^D), nearly reached from 0 on."""
-    half_width = {5: 2.7, 8: 15.0}[degree]
+    half_width = {4: 1.69, 6: 7.5, 8: 19.0}[degree]
     mu2, t = node_mu2(degree), np.linspace(-1, 1, 201)
     coefficients = to_powers(degree) @ to_chebyshev(degree) @ np.cos(np.sqrt(2 * half_width * mu2))
     error = np.abs(np.polynomial.polynomial.polyval(t, coefficients) - np.cos(np.sqrt(half_width * (1 + t))))
-    assert 3e-9 < error.max() < 3e-8
+    assert 2.5e-8 < error.max() < 2.5e-7
 
 
 @pytest.mark.parametrize(

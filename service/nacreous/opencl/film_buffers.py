@@ -48,7 +48,8 @@ def film_buffers(device: Device, problem: FilmProblem, precision: Precision, lan
     thickness_nm = upload(device, problem.thickness_nm, dtype)
     incident = upload(device, np.stack([n0, 1 / n0, 1 / padded.wavelength_nm]), dtype)  # (3, stride)
     degree = layer_degree(problem, precision)
-    film = (media, medium_of, incident, thickness_nm)
+    critical_mu2 = upload(device, _critical_mu2(index, lanes), dtype)
+    film = (media, critical_mu2, medium_of, incident, thickness_nm)
     polynomials = thickness_nm
     if degree:
         polynomials = layer_polynomials(device, film, problem, degree, precision, lanes)
@@ -57,7 +58,7 @@ def film_buffers(device: Device, problem: FilmProblem, precision: Precision, lan
     counts = (len(numbers), len(segments), layers, stride, _rescale_after(problem))
     arguments = (
         media,
-        upload(device, _critical_mu2(index, lanes), dtype),
+        critical_mu2,
         medium_of,
         upload(device, segments, np.int32),
         *map(np.int32, counts),

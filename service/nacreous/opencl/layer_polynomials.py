@@ -22,11 +22,11 @@ from nacreous.opencl.upload import upload
 
 __all__ = ["DEGREES", "layer_degree", "layer_polynomials", "node_mu2", "to_chebyshev", "to_powers"]
 
-DEGREES = (5, 8)
+DEGREES = (4, 6, 8)
 """Degrees that kernels are built for: few programs serve all films. Above the last, waves cost no more."""
 
-_TOLERANCE = 3e-8
-"""Half of the last digit of 1 in single precision."""
+_TOLERANCE = 2.5e-7
+"""What a wave loses as its phase, half a turn in a quarter-wave layer and its like, is rounded to 24 bits."""
 
 _FEWEST_ANGLES = 48
 """Fewer do not pay for the coefficients."""
@@ -59,7 +59,8 @@ def layer_polynomials(
     Parameters
     ----------
     film : tuple of buffers
-        Media, the medium of each layer, the incident medium and thicknesses, as film kernels take them.
+        Media, where they are clear, the medium of each layer, the incident medium and thicknesses, as film
+        kernels take them.
     """
     import pyopencl as cl
 
@@ -68,12 +69,19 @@ def layer_polynomials(
     numbers = thicknesses * blocks * lanes * _runs(degree)
     size = numbers * np.dtype(precision.dtype).itemsize
     filled = cl.Buffer(device.context, cl.mem_flags.READ_WRITE, size)
-    tables = [upload(device, table(degree), precision.dtype) for table in (node_mu2, to_chebyshev, to_powers)]
+    nodes = upload(device, _interpolation(degree), precision.dtype)
     counts = map(np.int32, (layers, blocks * lanes, thicknesses))
     kernel = kernel_of(device, Build("layer_polynomials", precision, lanes, (("DEGREE", degree),)))
-    kernel.set_args(*film, *counts, *tables, filled)
+    kernel.set_args(*film, *counts, nodes, filled)
     cl.enqueue_nd_range_kernel(device.queue, kernel, (blocks, thicknesses), (1, 1))
     return filled
+
+
+@cache
+def _interpolation(degree: int) -> NDArray[np.float64]:
+    """All that a kernel interpolates by, in one piece."""
+    tables = node_mu2(degree), to_chebyshev(degree).ravel(), to_powers(degree).ravel()
+    return np.concatenate(tables)
 
 
 def _runs(degree: int) -> int:
@@ -101,14 +109,12 @@ def node_mu2(degree: int) -> NDArray[np.float64]:
     return nodes
 
 
-@cache
 def to_chebyshev(degree: int) -> NDArray[np.float64]:
     """Return what takes values at the nodes to coefficients of Chebyshev polynomials, (order, node)."""
     values = chebyshev.chebvander(chebyshev.chebpts1(degree + 1), degree)  # (node, order)
     return np.linalg.inv(values).astype(np.float64)
 
 
-@cache
 def to_powers(degree: int) -> NDArray[np.float64]:
     """Return what takes those to coefficients of powers of t = 2 mu^2 - 1, (power, order)."""
     matrix = np.zeros((degree + 1, degree + 1))
