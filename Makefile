@@ -55,6 +55,7 @@ check: $(VENV)/.group-check
 docs: page $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(BLENDER_VENV)/.bpy
 	$(BIN)/python -m pytest tests/test_documentation.py
 	$(BIN)/python docs/make_images.py
+	PYTHONPATH=tests $(BIN)/python docs/make_page_image.py
 	PYTHONPATH=tests $(BIN)/python docs/make_client_images.py
 
 bench: $(BENCH_VENV)/.group-$(BENCH_GROUP) $(BENCH_VENV)/.llvm
