@@ -134,3 +134,12 @@ def test_an_edit_outlives_the_service(browser: "Browser", tmp_path: Path) -> Non
 def drawn_table(page: "Page") -> str:
     """Return the id of the table that the preview shows."""
     return str(page.locator(PREVIEW).get_attribute("data-table"))
+
+
+def test_a_film_that_takes_long_is_drawn_coarser(open_page: OpenPage) -> None:
+    """Ridges of uneven width are a thousand films each: as many texels are asked for as are made at once."""
+    page = open_page("#preset=morpho-ridges")
+    page.wait_for_selector(":root[data-ready]", state="attached", timeout=60_000)
+    canvas = page.wait_for_selector("canvas.preview-canvas[data-table]")
+    assert canvas.get_attribute("data-size") in ("32x9", "64x17")
+    assert page.get_by_text("takes at most").count() == 0

@@ -119,6 +119,19 @@ def test_what_takes_long_becomes_a_job(tmp_path: Path, film: Mapping[str, Any]) 
         assert slow.post("/v1/tables", json=film).status_code == 200
 
 
+def test_a_client_can_want_no_job(tmp_path: Path, film: Mapping[str, Any]) -> None:
+    """With long=refuse, 422 with the estimate and the limit, and nothing is begun; a known table is 200."""
+    with running_app(settings_for(tmp_path, synchronous_seconds=0)) as slow:
+        refused = slow.post("/v1/tables?long=refuse", json=film)
+        assert refused.status_code == 422
+        assert refused.json()["field"] == "table"
+        assert "at most 0 s" in refused.json()["expected"]
+        assert "nacreous_store_bytes 0.0" in slow.get("/metrics").text
+        slow.get(f"{slow.post('/v1/tables', json=film).json()['links']['job']}/events")
+        assert slow.post("/v1/tables?long=refuse", json=film).status_code == 200
+        assert slow.post("/v1/tables?long=reject", json=film).json()["field"] == "long"
+
+
 def test_a_file_that_takes_too_long_is_made_by_a_job(tmp_path: Path, film: Mapping[str, Any]) -> None:
     """202 where a request could not wait for it, of a table and of a preset; 200 once it is there."""
     with running_app(settings_for(tmp_path, deadline_seconds=1e-6)) as hurried:

@@ -11,7 +11,7 @@ from starlette.requests import Request
 from nacreous.errors import SpecError
 from nacreous.optics.value import did_you_mean, shown
 
-__all__ = ["query", "whole_number"]
+__all__ = ["chosen_word", "query", "whole_number"]
 
 
 def query(request: Request, known: Sequence[str] = ()) -> dict[str, str]:
@@ -39,3 +39,11 @@ def whole_number(parameters: dict[str, str], name: str, default: int, most: int)
     if not (text.isascii() and text.isdecimal() and len(text) <= 12 and int(text) <= most):
         raise SpecError(name, f"a whole number from 0 to {most:,}", shown(text))
     return int(text)
+
+
+def chosen_word(parameters: dict[str, str], name: str, words: Sequence[str]) -> str:
+    """Return a parameter that is one of some words, the first of them where it is left out; see `query`."""
+    text = parameters.get(name, words[0])
+    if text not in words:
+        raise SpecError(name, f"one of {', '.join(words)}", shown(text), did_you_mean(text, words))
+    return text

@@ -11,7 +11,7 @@ from nacreous.engine.cost import estimated_seconds
 from nacreous.engine.files import SUFFIXES, default_format, format_of_suffix
 from nacreous.engine.sweep import Sweep
 from nacreous.engine.work import Work
-from nacreous.errors import MissingError
+from nacreous.errors import MissingError, SpecError
 from nacreous.formats.registry import FORMATS
 from nacreous.tables.spec import Spec
 from nacreous.web.admission import admit
@@ -21,8 +21,17 @@ from nacreous.web.files import file_response, representation, split_file_name
 from nacreous.web.hot_files import TABLE_FILE
 from nacreous.web.ids import checked_id
 from nacreous.web.links import table_links
-from nacreous.web.openapi import CONDITIONS, HEX_ID, READS_SPEC, answered, binary, operation_link, problems
-from nacreous.web.queries import query
+from nacreous.web.openapi import (
+    CONDITIONS,
+    HEX_ID,
+    READS_SPEC,
+    answered,
+    binary,
+    operation_link,
+    problems,
+    query_parameter,
+)
+from nacreous.web.queries import chosen_word, query
 from nacreous.web.routes.jobs import job_answer
 from nacreous.web.service import Service, service_of
 
@@ -38,6 +47,12 @@ _LINKS = {
     "table": operation_link("/v1/tables/{table_id}", table_id="$response.body#/id"),
     "file": operation_link(TABLE_FILE, table_id="$response.body#/id", suffix="npz"),
 }
+_WAYS = (_QUEUED, _REFUSED) = ("job", "refuse")
+_LONG = query_parameter(
+    "long",
+    "What becomes of a spec that takes long: a job, or 422, for a client that shows a film while it changes.",
+    {"enum": [*_WAYS], "default": _QUEUED},
+)
 
 
 @router.post(
@@ -48,22 +63,30 @@ _LINKS = {
         **answered(JobAccepted, HTTPStatus.ACCEPTED, headers=_LOCATION),
         **problems(400, 408, 413, 415, 429, 500, 504),
     },
-    openapi_extra=READS_SPEC,
+    openapi_extra={**READS_SPEC, "parameters": [_LONG]},
 )
 async def add_table(request: Request) -> Response:
     """Tabulate a spec: 201 for a new table, 200 for a known one, 202 and a job for one that takes long."""
     service = service_of(request)
-    query(request)
+    long = chosen_word(query(request, ("long",)), "long", _WAYS)
     spec = Spec.from_document(await read_document(request, service.settings))
     work = Work(spec, default_format(spec))
     admit(work)
-    if estimated_seconds(work) > service.settings.synchronous_seconds and not await _is_known(service, work):
+    seconds, most = estimated_seconds(work), service.settings.synchronous_seconds
+    if seconds > most and not await _is_known(service, work):
+        if long == _REFUSED:
+            raise _takes_long(seconds, most)
         return await job_of(service, work)
     added = await service.library.add(spec)
     links = table_links(added.id, spec)
     answer = TableAdded(id=added.id, created=added.created, certificate=dict(added.certificate), links=links)
     status = HTTPStatus.CREATED if added.created else HTTPStatus.OK
     return _json(document(answer), status, links["self"])
+
+
+def _takes_long(seconds: float, most: float) -> SpecError:
+    expected = f"a table that takes at most {most:g} s, for a request that wants no job"
+    return SpecError("table", expected, f"an estimated {seconds:.3g} s", "leave long=refuse out for a job")
 
 
 async def _is_known(service: Service, work: Work) -> bool:

@@ -10,6 +10,7 @@ export interface Size {
 
 /** While a slider moves, and when it rests. */
 export const COARSE: Size = { cosTheta: 32, scales: 9 };
+export const MIDDLE: Size = { cosTheta: 64, scales: 17 };
 export const FINE: Size = { cosTheta: 128, scales: 65 };
 /** Factors on the thickness that a lookup texture of the page spans. */
 export const SCALES = { start: 0.5, stop: 1.5 } as const;

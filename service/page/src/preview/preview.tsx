@@ -10,7 +10,6 @@ import { drawSwatch } from "./swatch";
 import { watchTheme } from "./theme";
 import { turnBy } from "./turning";
 import { spec } from "../state/editor";
-import { FINE } from "../film/views";
 import { type Lookup, lookup } from "../state/lookup";
 import { type Light, LIGHTS, light, type Shape, SHAPES, shape } from "../state/view";
 
@@ -106,14 +105,14 @@ function wear(stage: Stage): void {
   if (problem) setReady();
   if (!answer || answer === worn) return;
   worn = answer;
-  stage.wear(answer, answer.size === FINE ? "fine" : "coarse");
+  stage.wear(answer, answer.pace === "resting" ? "fine" : "coarse");
 }
 
 /** What has been drawn, for whoever cannot see it. */
-function note(canvas: HTMLCanvasElement, { table, size }: Lookup): void {
+function note(canvas: HTMLCanvasElement, { table, size, pace }: Lookup): void {
   canvas.dataset.table = table.id;
   canvas.dataset.size = `${size.cosTheta}x${size.scales}`;
-  if (size === FINE) setReady();
+  if (pace === "resting") setReady();
 }
 
 function setReady(): void {
@@ -121,6 +120,6 @@ function setReady(): void {
 }
 
 function isSettled(answer: Lookup | undefined): boolean {
-  return answer?.size === FINE || lookup.value.problem !== undefined;
+  return answer?.pace === "resting" || lookup.value.problem !== undefined;
 }
 

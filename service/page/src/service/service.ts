@@ -1,6 +1,6 @@
 /** The requests of the page, one function each. All of them go to where the page itself has come from. */
 
-import type { JobAccepted, MaterialAnswer, MaterialList, PresetAnswer, PresetEntry, TableAdded } from "./answers";
+import type { MaterialAnswer, MaterialList, PresetAnswer, PresetEntry, TableAdded } from "./answers";
 import { bearerKey, keyWanted } from "./key";
 import { LostError, type Problem, ProblemError } from "./problem";
 import type { SpecDocument } from "../film/document";
@@ -9,22 +9,27 @@ const UNAVAILABLE = new Set([429, 503]);
 const UNAUTHORIZED = 401;
 const MOST_RETRIES = 4;
 export const ACCEPTED = 202;
+const TAKES_LONG = {
+  detail: "A table as fine as this takes the service too long to follow the film live",
+  expected: null,
+  remedy: "its files can still be made; several layers of uneven thickness cost the most",
+};
 
-/** Tabulate a spec at once; what takes longer is not begun. @throws ProblemError, LostError */
+/** Tabulate a spec at once; what takes longer is not begun, see `takesLong`. @throws ProblemError, LostError */
 export async function addTable(spec: SpecDocument, signal?: AbortSignal): Promise<TableAdded> {
-  const body = JSON.stringify(spec);
-  const response = await answered("v1/tables", { method: "POST", body, headers: { "Content-Type": "application/json" } }, signal);
-  if (response.status === ACCEPTED) throw new ProblemError(await tooLong(response));
+  const init = { method: "POST", body: JSON.stringify(spec), headers: { "Content-Type": "application/json" } };
+  const response = await answered("v1/tables?long=refuse", init, signal).catch(inWords);
   return response.json();
 }
 
-/** A job is no way to follow a film that is being edited: it is called off. */
-async function tooLong(accepted: Response): Promise<Problem> {
-  const { job }: JobAccepted = await accepted.json();
-  await answered(`v1/jobs/${job.id}`, { method: "DELETE" });
-  const detail = "A table as fine as this takes the service too long to follow the film live";
-  const remedy = "its files can still be made; several layers of uneven thickness cost the most";
-  return { type: "about:blank", title: "Takes too long", status: ACCEPTED, detail, remedy };
+/** The page does not know of requests and jobs. */
+function inWords(error: unknown): never {
+  throw takesLong(error) ? new ProblemError({ ...error.problem, ...TAKES_LONG }) : error;
+}
+
+/** Whether a table was refused because a job would have to make it. */
+export function takesLong(error: unknown): error is ProblemError {
+  return error instanceof ProblemError && error.problem.field === "table";
 }
 
 /** Get a file by its link. @throws ProblemError, LostError */

@@ -7,11 +7,16 @@ import { returns } from "./connection";
 import { follower } from "./asking";
 import { spec } from "./editor";
 import type { SpecDocument } from "../film/document";
-import { COARSE, FINE, lookupSpec, type Size } from "../film/views";
+import { COARSE, FINE, MIDDLE, lookupSpec, type Size } from "../film/views";
 import type { TableAdded } from "../service/answers";
-import { made, tabulated } from "../service/jobs";
+import { addTable, file, takesLong } from "../service/service";
 
 const REST_MS = 200;
+
+/** Whether the spec changes as one looks. */
+export type Pace = "moving" | "resting";
+/** Of these, the first that the service makes at once. */
+const SIZES: Record<Pace, readonly [Size, ...Size[]]> = { moving: [COARSE], resting: [FINE, MIDDLE, COARSE] };
 
 /** The colours of the film, and of what it lets through. */
 export interface Lookup {
@@ -19,6 +24,7 @@ export interface Lookup {
   readonly transmittance?: LookupTexture;
   readonly table: TableAdded;
   readonly size: Size;
+  readonly pace: Pace;
   /** The spec that the textures belong to. */
   readonly spec: SpecDocument;
 }
@@ -31,30 +37,40 @@ export function followSpec(): () => void {
   return effect(() => {
     const document = spec.value;
     returns.value; // asked anew when the service comes back
-    followed.ask({ spec: document, size: COARSE });
-    const timer = setTimeout(() => followed.ask({ spec: document, size: FINE }), REST_MS);
+    followed.ask({ spec: document, pace: "moving" });
+    const timer = setTimeout(() => followed.ask({ spec: document, pace: "resting" }), REST_MS);
     return () => clearTimeout(timer);
   });
 }
 
 interface Asked {
   readonly spec: SpecDocument;
-  readonly size: Size;
+  readonly pace: Pace;
 }
 
-async function fetchLookup({ spec: document, size }: Asked): Promise<Lookup> {
-  const table = await tabulated(lookupSpec(document, size), unwatched);
+async function fetchLookup(asked: Asked): Promise<Lookup> {
+  const [first, ...smaller] = SIZES[asked.pace];
+  return smaller.reduce((made, size) => made.catch(orSmaller(asked, size)), lookupOf(asked, first));
+}
+
+/** What takes the service long at one size is asked for at the next. */
+function orSmaller(asked: Asked, size: Size): (refusal: unknown) => Promise<Lookup> {
+  return (refusal) => {
+    if (!takesLong(refusal)) throw refusal;
+    return lookupOf(asked, size);
+  };
+}
+
+async function lookupOf({ spec: document, pace }: Asked, size: Size): Promise<Lookup> {
+  const table = await addTable(lookupSpec(document, size));
   const [reflectance, transmittance] = await Promise.all([texture(table.links.exr), texture(table.links["exr-transmission"])]);
   if (!reflectance) throw new Error("expected a link to the lookup texture, found none");
-  return { reflectance, ...(transmittance ? { transmittance } : {}), table, size, spec: document };
+  return { reflectance, ...(transmittance ? { transmittance } : {}), table, size, pace, spec: document };
 }
-
-/** A job's progress, of which the page says nothing: the last colours stay until the next are there. */
-function unwatched(): void {}
 
 async function texture(link: string | undefined): Promise<LookupTexture | undefined> {
   if (link === undefined) return undefined;
   // three is loaded while the service computes: nobody waits for one and then for the other.
-  const [{ parseLookupTexture }, response] = await Promise.all([import("@nacreous/three"), made(link, unwatched)]);
-  return parseLookupTexture(await response.arrayBuffer());
+  const [{ parseLookupTexture }, bytes] = await Promise.all([import("@nacreous/three"), file(link)]);
+  return parseLookupTexture(bytes);
 }
