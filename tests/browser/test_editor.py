@@ -142,6 +142,15 @@ def test_a_material_is_found_and_chosen_by_keyboard(page: "Page") -> None:
     expect(field).to_have_attribute("aria-expanded", "false")
 
 
+def test_enter_takes_the_material_that_is_typed(page: "Page") -> None:
+    """A whole name is that material, also where others that hold the word are listed before it."""
+    field = page.get_by_role("combobox", name="Incident medium")
+    field.fill("water")
+    expect(page.get_by_role("option").first).to_contain_text("conchiolin")
+    field.press("Enter")
+    expect(field).to_have_value("water")
+
+
 def test_a_material_that_is_not_there_is_not_chosen(page: "Page") -> None:
     """A name that no material has stays as it was typed, with a message; Escape brings the old one back."""
     field = page.get_by_role("combobox", name="Incident medium")
@@ -231,6 +240,9 @@ def test_a_key_is_asked_for(browser: "Browser", tmp_path: Path) -> None:
             field.fill("no key of it")
             field.press("Enter")
             expect(field).to_have_accessible_description("The service does not know this key.")
+            field.fill("\N{CYRILLIC SMALL LETTER KA}" * 16)  # no header holds it: it must not shut the page for good
+            field.press("Enter")
+            expect(dialogue).to_be_visible()
             field.fill(KEY)
             field.press("Enter")
             expect(dialogue).to_be_hidden()
