@@ -46,7 +46,7 @@ def press(page: "Page", name: str) -> None:
 
 
 def test_a_preset_is_opened_and_marked(page: "Page") -> None:
-    """Morpho has six pairs of layers of 90 nm (its spec), and is the current one until it is changed."""
+    """Morpho has six pairs of layers of 90 nm (its spec), and is the current one while it is unchanged."""
     preset = page.get_by_role("button", name="Morpho butterfly", exact=True)
     preset.click()
     expect(preset).to_have_attribute("aria-current", "true")
@@ -55,6 +55,8 @@ def test_a_preset_is_opened_and_marked(page: "Page") -> None:
     expect(thickness(page, "1.1")).to_have_value("90")
     thickness(page, "1.1").press("ArrowUp")
     expect(preset).not_to_have_attribute("aria-current", "true")
+    press(page, "Undo")
+    expect(preset).to_have_attribute("aria-current", "true")
 
 
 def test_keys_step_a_thickness(page: "Page") -> None:
