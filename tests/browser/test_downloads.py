@@ -124,6 +124,13 @@ def test_the_address_is_a_link_to_what_is_seen(page: "Page", open_page: Callable
         (film_fragment(FILM)[:60], "the link is damaged"),
         (film_fragment({"stack": {"incident": "air"}}), "the link holds no film"),
         (film_fragment(FILM | {"description": "x" * 5_000_000}), "more than a film"),
+        (film_fragment(FILM | {"name": {"first": "x"}}), "the link holds no film"),
+        (
+            film_fragment({"stack": FILM["stack"] | {"substrate": {"constructor": 1}}}),
+            "the link holds no film",
+        ),
+        (film_fragment(FILM | {"table": {"thickness_scale": {"start": "a"}}}), "the link holds no film"),
+        ("preset=..%2F..%2Fhealthz", "the link names no preset"),
     ],
 )
 def test_a_link_that_is_broken_says_so(page: "Page", fragment: str, words: str) -> None:

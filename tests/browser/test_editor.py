@@ -46,7 +46,7 @@ def press(page: "Page", name: str) -> None:
 
 
 def test_a_preset_is_opened_and_marked(page: "Page") -> None:
-    """Morpho has six pairs of layers of 90 nm (its spec), and is the current one until it is changed."""
+    """Morpho has six pairs of layers of 90 nm (its spec), and is the current one while it is unchanged."""
     preset = page.get_by_role("button", name="Morpho butterfly", exact=True)
     preset.click()
     expect(preset).to_have_attribute("aria-current", "true")
@@ -55,6 +55,8 @@ def test_a_preset_is_opened_and_marked(page: "Page") -> None:
     expect(thickness(page, "1.1")).to_have_value("90")
     thickness(page, "1.1").press("ArrowUp")
     expect(preset).not_to_have_attribute("aria-current", "true")
+    press(page, "Undo")
+    expect(preset).to_have_attribute("aria-current", "true")
 
 
 def test_keys_step_a_thickness(page: "Page") -> None:
@@ -140,6 +142,15 @@ def test_a_material_is_found_and_chosen_by_keyboard(page: "Page") -> None:
     field.press("Enter")
     expect(field).to_have_value("main/Ag/Johnson")
     expect(field).to_have_attribute("aria-expanded", "false")
+
+
+def test_enter_takes_the_material_that_is_typed(page: "Page") -> None:
+    """A whole name is that material, also where others that hold the word are listed before it."""
+    field = page.get_by_role("combobox", name="Incident medium")
+    field.fill("water")
+    expect(found(page, "conchiolin")).to_be_visible()
+    field.press("Enter")
+    expect(field).to_have_value("water")
 
 
 def test_a_material_that_is_not_there_is_not_chosen(page: "Page") -> None:
@@ -231,6 +242,9 @@ def test_a_key_is_asked_for(browser: "Browser", tmp_path: Path) -> None:
             field.fill("no key of it")
             field.press("Enter")
             expect(field).to_have_accessible_description("The service does not know this key.")
+            field.fill("\N{CYRILLIC SMALL LETTER KA}" * 16)  # no header holds it
+            field.press("Enter")
+            expect(dialogue).to_be_visible()
             field.fill(KEY)
             field.press("Enter")
             expect(dialogue).to_be_hidden()

@@ -5,7 +5,7 @@ import type { SpecDocument } from "./document";
 
 /** Ask this service for the table, by curl. */
 export function curlCommand(spec: SpecDocument, service: string, hasKey: boolean): string {
-  const key = hasKey ? ` -H "Authorization: Bearer $NACREOUS_KEY"` : "";
+  const key = hasKey ? ` -H "Authorization: Bearer $NACREOUS_SERVER_KEY"` : "";
   const { stack, surface, table, colour, accuracy } = brief(spec); // labels are no part of the table
   const body = quoted(JSON.stringify({ stack, surface, table, colour, accuracy }));
   return `curl -fsS${key} -H "Content-Type: application/json" -d ${body} ${quoted(`${service}v1/tables`)}`;

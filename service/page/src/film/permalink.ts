@@ -2,6 +2,7 @@
 
 import { brief } from "./brief";
 import type { SpecDocument } from "./document";
+import { isReadable, isRecord } from "./readable";
 import { LIGHTS, SHAPES, type Light, type Shape } from "../state/view";
 
 /** How the film is looked at. */
@@ -15,6 +16,8 @@ export interface View {
 export type Link = { readonly view: Partial<View> } & ({ readonly spec: SpecDocument } | { readonly preset: string });
 
 const LONGEST_JSON = 4_000_000;
+/** A link chooses among presets, and nothing else of the service: no name climbs out of their path. */
+const PRESET_NAME = /^[\w-]+(\/[\w-]+)*$/;
 const LARGEST_THETA_DEGREES = 89;
 
 /** What is wrong with a link. */
@@ -38,13 +41,14 @@ export async function readFragment(fragment: string): Promise<Link | undefined> 
   const [film, preset] = [parameters.get("film"), parameters.get("preset")];
   if (film !== null) return filmLink(film);
   if (preset === null) return undefined;
+  if (!PRESET_NAME.test(preset)) throw new LinkError("the link names no preset");
   const theta = parameters.get("thetaDegrees");
   return { preset, view: viewOf({ ...Object.fromEntries(parameters), thetaDegrees: theta === null ? undefined : Number(theta) }) };
 }
 
 async function filmLink(film: string): Promise<Link> {
   const { spec, view }: { spec?: unknown; view?: unknown } = await documentOf(film);
-  if (!isSpec(spec)) throw new LinkError("the link holds no film: its stack has no layers that can be read");
+  if (!isReadable(spec)) throw new LinkError("the link holds no film: it has parts that cannot be read");
   return { spec, view: viewOf(isRecord(view) ? view : {}) };
 }
 
@@ -67,32 +71,6 @@ function viewOf({ shape, light, thetaDegrees }: Record<string, unknown>): Partia
     ...(LIGHTS.includes(light as Light) ? { light: light as Light } : {}),
     ...(isAngle ? { thetaDegrees } : {}),
   };
-}
-
-/** Whether the page can show it; all else is for the service to judge, which says what is wrong at its field. */
-function isSpec(spec: unknown): spec is SpecDocument {
-  if (!isRecord(spec) || !isRecord(spec["stack"])) return false;
-  const { incident, substrate, layers } = spec["stack"];
-  return isMaterial(incident) && isMaterial(substrate) && Array.isArray(layers) && layers.every(isEntry);
-}
-
-function isEntry(entry: unknown): boolean {
-  if (!isRecord(entry)) return false;
-  const { layers, repeat } = entry;
-  if (layers !== undefined) return typeof repeat === "number" && Array.isArray(layers) && layers.every(isLayer);
-  return isLayer(entry);
-}
-
-function isLayer(layer: unknown): boolean {
-  return isRecord(layer) && isMaterial(layer["material"]) && typeof layer["thickness_nm"] === "number";
-}
-
-function isMaterial(material: unknown): boolean {
-  return typeof material === "string" || isRecord(material);
-}
-
-function isRecord(value: unknown): value is Record<string, unknown> {
-  return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 
 async function deflated(text: string): Promise<Uint8Array> {

@@ -15,3 +15,10 @@ export function fieldText(value: number): string {
   const rounded = Number(value.toPrecision(10));
   return rounded >= 1e7 ? rounded.toExponential().replace("+", "") : String(rounded);
 }
+
+const LONGEST_QUOTED = 40;
+
+/** What was typed, in quotes, as a message repeats it. */
+export function quoted(text: string): string {
+  return text.length > LONGEST_QUOTED ? `'${text.slice(0, LONGEST_QUOTED)}…'` : `'${text}'`;
+}

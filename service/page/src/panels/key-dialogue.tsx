@@ -6,6 +6,9 @@ import { FieldMessage, invalid } from "./field-message";
 import { key, keyWanted, useKey } from "../service/key";
 import { returns } from "../state/connection";
 
+/** No header holds another letter: a request with such a key would never leave the browser. */
+const SENDABLE = "\\s*[ -~]+\\s*";
+
 export function KeyDialogue() {
   const id = useId();
   const dialogue = useRef<HTMLDialogElement>(null);
@@ -25,7 +28,15 @@ export function KeyDialogue() {
         <p class="quiet">Whoever runs it hands them out. It is kept in this tab alone.</p>
         <label>
           Key
-          <input ref={field} type="password" autocomplete="off" required {...invalid(`${id}-message`, message)} />
+          <input
+            ref={field}
+            type="password"
+            autocomplete="off"
+            required
+            pattern={SENDABLE}
+            title="Letters, digits and signs of ASCII"
+            {...invalid(`${id}-message`, message)}
+          />
         </label>
         <FieldMessage id={`${id}-message`} message={message} />
         <button type="submit" class="primary">Use this key</button>

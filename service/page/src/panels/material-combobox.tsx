@@ -31,7 +31,7 @@ export function MaterialCombobox({ label, name, messageId, message, focused, onC
   const found = useMaterialSearch(isOpen ? (text ?? "").trim() : undefined);
   const options = found?.list.materials ?? [];
   useEffect(() => setText(undefined), [name]);
-  useEffect(() => setActive(text && options.length > 0 ? 0 : -1), [found]);
+  useEffect(() => setActive(text ? bestOf(options, text) : -1), [found]);
   useEffect(() => void (focused && input.current?.focus()), []);
   useEffect(() => document.getElementById(`${id}-${active}`)?.scrollIntoView({ block: "nearest" }), [active]);
 
@@ -100,6 +100,12 @@ export function MaterialCombobox({ label, name, messageId, message, focused, onC
       <Popup id={id} isOpen={isOpen} found={found} active={active} onChoose={choose} />
     </div>
   );
+}
+
+/** Index of the option that Enter takes: the one of this very name, or else the first; -1 where there is none. */
+function bestOf(options: readonly MaterialEntry[], text: string): number {
+  const named = options.findIndex((entry) => entry.name === text.trim());
+  return named >= 0 ? named : Math.min(0, options.length - 1);
 }
 
 interface PopupProps {

@@ -7,6 +7,7 @@ import { MaterialCombobox } from "./material-combobox";
 import { NumberField } from "./number-field";
 import type { Material } from "../film/document";
 import { described, held, isHeld, kindOf, nameOf } from "../film/material";
+import { quoted } from "../film/typed";
 import type { ConstantMaterial } from "../service/answers";
 import { problemAt } from "../state/problems";
 import "./material-field.css";
@@ -44,7 +45,7 @@ function NamedField({ label, path, material, onMaterial, isReplacing, onBack }: 
   const id = useId();
   const [unknown, setUnknown] = useState("");
   const problem = isReplacing ? undefined : problemAt(path);
-  const message = unknown ? `Expected a material of the library, got '${unknown}'; choose one of the list.` : refusalWords(problem);
+  const message = unknown ? `Expected a material of the library, got ${quoted(unknown)}; choose one of the list.` : refusalWords(problem);
   const isBeyond = !unknown && problem?.expected?.startsWith("wavelengths within the data") && !isHeld(material);
   return (
     <div class="material-field">
@@ -83,11 +84,11 @@ interface ReplacedProps extends MaterialFieldProps {
 function ConstantField({ label, path, constant, onMaterial, onReplace }: ReplacedProps & { readonly constant: ConstantMaterial }) {
   const { n, k = 0 } = constant;
   return (
-    <div class="material-field">
+    <div class="material-field" role="group" aria-label={label}>
       <NumberField
         label="n"
         value={n}
-        expected="a refractive index, 1e-6 or more"
+        expected="a refractive index, 0.001 to 1000"
         step={STEP}
         path={`${path}.n`}
         onValue={(value) => onMaterial({ ...constant, n: value }, `${path}.n`)}
@@ -95,7 +96,7 @@ function ConstantField({ label, path, constant, onMaterial, onReplace }: Replace
       <NumberField
         label="k"
         value={k}
-        expected="an extinction coefficient, 0 or more"
+        expected="an extinction coefficient, 0 to 1000"
         step={STEP}
         path={`${path}.k`}
         onValue={(value) => onMaterial({ ...constant, k: value }, `${path}.k`)}

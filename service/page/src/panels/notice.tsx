@@ -24,6 +24,9 @@ export function Notice() {
   );
 }
 
+/** Of a spec that is wrong: it would be refused again. */
+const UNPROCESSABLE = 422;
+
 function Refused({ problem }: { readonly problem: Problem }) {
   return (
     <div class="notice-problem">
@@ -31,7 +34,7 @@ function Refused({ problem }: { readonly problem: Problem }) {
         {problem.field && <b>{problem.field}: </b>}
         {refusalWords(problem)}
       </span>
-      {!problem.field && <button type="button" onClick={() => returns.value++}>Try again</button>}
+      {!problem.field && problem.status !== UNPROCESSABLE && <button type="button" onClick={() => returns.value++}>Try again</button>}
     </div>
   );
 }

@@ -3,7 +3,7 @@
 import { useId, useState } from "preact/hooks";
 
 import { FieldMessage, invalid, refusalWords } from "./field-message";
-import { fieldText, typedNumber } from "../film/typed";
+import { fieldText, quoted, typedNumber } from "../film/typed";
 import { endGesture } from "../state/editor";
 import { problemAt } from "../state/problems";
 
@@ -39,7 +39,7 @@ export function NumberField({ label, value, expected, step, unit, path, labelled
   const [typed, setTyped] = useState<Typed>();
   const current = typed?.value === value ? typed : undefined;
   const isNonsense = current !== undefined && typedNumber(current.text) === undefined;
-  const nonsense = isNonsense && current.left ? `Expected ${expected}, got '${current.text}'.` : undefined;
+  const nonsense = isNonsense && current.left ? `Expected ${expected}, got ${quoted(current.text)}.` : undefined;
   const message = nonsense ?? refusalWords(problemAt(path));
   const type = (text: string) => {
     const number = typedNumber(text);

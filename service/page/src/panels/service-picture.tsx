@@ -5,6 +5,7 @@ import { useEffect, useState } from "preact/hooks";
 import { key } from "../service/key";
 import { LostError, ProblemError } from "../service/problem";
 import { file, relative } from "../service/service";
+import { returns } from "../state/connection";
 
 interface ServicePictureProps {
   readonly link: string;
@@ -13,9 +14,17 @@ interface ServicePictureProps {
 }
 
 export function ServicePicture({ link, onSettled }: ServicePictureProps) {
+  const [failedAt, setFailedAt] = useState<number>();
+  const asked = returns.value;
   const fetched = useFetched(key.value ? link : undefined);
   const address = key.value ? fetched : relative(link);
-  return address ? <img src={address} alt="" loading="lazy" decoding="async" onLoad={onSettled} onError={onSettled} /> : null;
+  const fail = () => {
+    setFailedAt(asked);
+    onSettled();
+  };
+  // One that has failed leaves its place empty, and is asked for anew when the service comes back.
+  if (!address || failedAt === asked) return null;
+  return <img src={address} alt="" loading="lazy" decoding="async" onLoad={onSettled} onError={fail} />;
 }
 
 function useFetched(link: string | undefined): string | undefined {

@@ -19,7 +19,7 @@ const present = signal<SpecDocument>({
 
 /** The spec on the page. */
 export const spec = computed(() => present.value);
-/** Name of the preset that was opened, while it is unchanged. */
+/** Name of the preset that was opened, while it is unchanged, or after all changes have been taken back. */
 export const openedPreset = signal("");
 export const canUndo = computed(() => history.value.past.length > 0);
 export const canRedo = computed(() => history.value.future.length > 0);
@@ -40,6 +40,7 @@ export function open(document: SpecDocument, preset = ""): void {
   lastGesture = "";
   present.value = document;
   openedPreset.value = preset;
+  if (preset) presetNames.set(document, preset);
 }
 
 /** A gesture has ended: the next change of the same kind is taken back on its own. */
@@ -64,6 +65,7 @@ export function redo(): void {
 }
 
 let lastGesture = "";
+const presetNames = new WeakMap<SpecDocument, string>();
 
 function remember(): void {
   history.value = { past: [...history.value.past, present.value].slice(-MOST_STEPS), future: [] };
@@ -71,6 +73,6 @@ function remember(): void {
 
 function go(document: SpecDocument): void {
   lastGesture = "";
-  openedPreset.value = "";
+  openedPreset.value = presetNames.get(document) ?? "";
   present.value = document;
 }

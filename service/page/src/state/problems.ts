@@ -25,7 +25,10 @@ export function problemAt(path: string): Problem | undefined {
   return problems.value.find(({ field }) => field === path || field?.startsWith(`${path}.`));
 }
 
+const OF_A_LAYER = "\\d+\\.(layers\\.\\d+\\.)?(material|thickness_nm|thickness_sigma_nm|repeat)\\b";
+const WITH_A_PLACE = new RegExp(`^stack\\.(incident|substrate|layers$|layers\\.${OF_A_LAYER})`);
+
 /** Whether a refusal is shown beside the field that it is about: those of the stack are always in sight. */
 export function hasPlace({ field }: Problem): boolean {
-  return field?.startsWith("stack.") ?? false;
+  return WITH_A_PLACE.test(field ?? "");
 }
