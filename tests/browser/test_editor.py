@@ -249,3 +249,12 @@ def test_a_key_is_asked_for(browser: "Browser", tmp_path: Path) -> None:
             field.press("Enter")
             expect(dialogue).to_be_hidden()
             expect(page.get_by_role("button", name="Soap bubble")).to_be_visible(timeout=20_000)
+
+
+def test_a_keyboard_can_pass_over_the_presets(page: "Page") -> None:
+    """WCAG 2.2, 2.4.1: the first stop leads past what every visit begins with."""
+    page.keyboard.press("Tab")
+    skip = page.get_by_role("button", name="Skip to the film")
+    expect(skip).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("heading", name="Film", exact=True)).to_be_focused()

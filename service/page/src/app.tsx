@@ -10,6 +10,7 @@ import { Header } from "./panels/header";
 import { Layers } from "./panels/layers";
 import { LinkNotice } from "./panels/link-notice";
 import { Notice } from "./panels/notice";
+import { SkipToFilm } from "./panels/skip-to-film";
 import { SurfacePanel } from "./panels/surface-panel";
 import { ChromaticityPlot } from "./plots/chromaticity-plot";
 import { ColourStrip } from "./plots/colour-strip";
@@ -22,6 +23,7 @@ export function App() {
   useEffect(() => void followLink().then(followSpec), []);
   return (
     <>
+      <SkipToFilm />
       <Header />
       <Notice />
       <LinkNotice />

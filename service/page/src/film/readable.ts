@@ -49,8 +49,11 @@ function isAxis(axis: unknown): boolean {
   return isNumber(axis["start"]) && isNumber(axis["stop"]) && [axis["step"], axis["count"]].every(absentOr(isNumber));
 }
 
+/** A page of thousands of rows would hardly answer; the service takes 64 layers. */
+const MOST_ITEMS = 1000;
+
 function isListOf(list: unknown, is: (item: unknown) => boolean): boolean {
-  return Array.isArray(list) && list.every(is);
+  return Array.isArray(list) && list.length <= MOST_ITEMS && list.every(is);
 }
 
 function absentOr(is: (value: unknown) => boolean): (value: unknown) => boolean {

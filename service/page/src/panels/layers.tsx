@@ -9,6 +9,7 @@ import { Icon } from "./icon";
 import { LayerRow } from "./layer-row";
 import { MaterialField } from "./material-field";
 import { stackNews } from "./row-focus";
+import { filmHeading } from "./skip-to-film";
 import { addLayer, type Entry, isGroup, type Medium, setMedium } from "../film/document";
 import { described } from "../film/material";
 import type { Layer } from "../service/answers";
@@ -25,7 +26,7 @@ export function Layers() {
   const message = ofStack?.field === "stack.layers" ? refusalWords(ofStack) : undefined;
   return (
     <section class="layers" aria-labelledby={id}>
-      <h2 id={id}>Film</h2>
+      <h2 id={id} ref={filmHeading} tabIndex={-1}>Film</h2>
       <FilmSection />
       <MediumRow medium="incident" label="Seen through" />
       <ol class="stack" aria-label="Layers, from where the light comes inwards">
