@@ -19,6 +19,7 @@ PIP_INSTALL := -m pip --disable-pip-version-check --no-input install --quiet
 
 help:
 	@echo 'make run     tabulate a preset to EXR and draw it, into out/'
+	@echo 'make page    build the page of the service'
 	@echo 'make serve   run the HTTP service and its page on http://localhost:8000'
 	@echo 'make test    run all tests'
 	@echo 'make check   look at style, types and layers'

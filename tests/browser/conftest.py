@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
 DESKTOP = (1280, 900)
+PATIENCE_MS = 30_000
+"""Before an expectation is given up: the worker may have a swatch in hand, and the machine other tests."""
 
 
 @pytest.fixture(scope="session")
@@ -34,6 +36,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 @pytest.fixture(scope="session")
 def browser() -> Iterator["Browser"]:
     """Run Chromium."""
+    from playwright.sync_api import expect
+
+    expect.set_options(timeout=PATIENCE_MS)
     with chromium() as browser:
         yield browser
 
