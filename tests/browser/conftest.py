@@ -33,9 +33,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
         yield served
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator["Browser"]:
-    """Run Chromium."""
+    """Run Chromium, for the tests of one file: while Playwright runs, no other event loop can."""
     from playwright.sync_api import expect
 
     expect.set_options(timeout=PATIENCE_MS)
