@@ -24,9 +24,12 @@ PATIENCE_MS = 30_000
 """Before an expectation is given up: the worker may have a swatch in hand, and the machine other tests."""
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    """Run the service with an empty store, and with the page as its sources are now."""
+    """Run the service with an empty store, and with the page as its sources are now.
+
+    For the tests of one file: tests of faults look at all processes that theirs has started.
+    """
     built_page()
     with serving(tmp_path_factory.mktemp("service") / "store") as served:
         served.await_ready()

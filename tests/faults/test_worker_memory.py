@@ -30,7 +30,7 @@ def test_a_table_beyond_the_memory_is_refused() -> None:
 
 
 def test_the_memory_of_arrays_is_kept() -> None:
-    """Tables like those before need no new pages from the system, which clears each before it gives it."""
+    """Tables like those before, of the same kernels, need no new pages, which the system would clear."""
 
     async def counted() -> int:
         async with running() as engine:
@@ -39,7 +39,7 @@ def test_the_memory_of_arrays_is_kept() -> None:
             assert engine.worker_pid
             before = page_faults(engine.worker_pid)
             for table in range(4):
-                await engine.compute(film_work(200 + table, size=128))
+                await engine.compute(film_work(104 + table, size=128))
             return page_faults(engine.worker_pid) - before
 
     assert patiently(counted()) < 500  # 7,500 where arrays are given back
