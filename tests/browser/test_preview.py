@@ -37,7 +37,9 @@ def test_pixels_change_with_the_thickness_as_the_lookup_says(
     tables that `data-table` names, at the thickness of the spec.
     """
     page = ready_page
+    first = _canvas(page).get_attribute("data-table")
     page.goto(f"{page.url.split('#')[0]}{TITANIUM}")
+    _await_another_table(page, first)
     _choose(page, "Overcast")
     tables, pictures = [], []
     for thickness_nm in ("60", "90"):
@@ -112,8 +114,13 @@ def _choose(page: "Page", choice: str) -> None:
 def _set_thickness(page: "Page", thickness_nm: str) -> None:
     drawn = _canvas(page).get_attribute("data-table")
     page.get_by_role("textbox", name="Thickness of layer 1", exact=True).fill(thickness_nm)
-    page.wait_for_selector(f"{CANVAS}:not([data-table='{drawn}'])[data-size='128x65']")
+    _await_another_table(page, drawn)
     _await_stillness(page)
+
+
+def _await_another_table(page: "Page", drawn: str | None) -> None:
+    """Wait until a fine table other than the one that was drawn is on the canvas."""
+    page.wait_for_selector(f"{CANVAS}:not([data-table='{drawn}'])[data-size='128x65']")
 
 
 def _await_stillness(page: "Page") -> None:
