@@ -17,15 +17,12 @@ import pytest
 from faults.soak import scale
 from nacreous.engine.engine import Readiness
 from nacreous.engine.kernel_cache import take_cache
-from nacreous.engine.work import Work
 from nacreous.engine.worker_engine import WorkerEngine, WorkerSettings
-from nacreous.formats.names import FormatName
-from nacreous.tables.presets import preset
 from worker_engines import film_work, patiently, running, until
 
 BEYOND_COMPILING_S = 5.0
-DOUBLE = Work(preset("soap-bubble", ["table.cos_theta=8", "accuracy.precision=double"]), FormatName.NPZ)
-"""Some of its kernels are compiled for it alone: a start computes no colours in double precision."""
+THIN = film_work(100.0, size=64)
+"""A film that is thin, at many angles: its kernels are none that a start compiles."""
 
 
 def truncated(kernel: bytes) -> bytes:
@@ -120,7 +117,7 @@ def test_a_damaged_kernel_that_is_used_late_costs_one_worker(
 
     async def computed(losses: int) -> None:
         async with running(WorkerSettings(cache_folder=cache)) as engine:
-            assert (await engine.compute(DOUBLE)).files
+            assert (await engine.compute(THIN)).files
             assert (engine.kernel_wipes, engine.restarts) == (losses, losses)
 
     patiently(computed(losses=0))
