@@ -322,7 +322,9 @@ def test_python_sees_pydantic() -> None:
 def test_a_hostile_key_makes_one_line(key: object) -> None:
     """The message can be printed whatever the key holds."""
     message = str(refused({"stack": STACK, key: 1}))
-    message.encode("utf-8")
+    assert message.encode("utf-8").isascii() or message.isprintable()
+    assert "\n" not in message
+    assert len(message) < 1000
 
 
 def test_a_hostile_depth_makes_one_message() -> None:

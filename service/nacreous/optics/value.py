@@ -28,6 +28,7 @@ __all__ = [
     "did_you_mean",
     "form_tag",
     "is_form_tag",
+    "named",
     "refusal",
     "shown",
 ]
@@ -56,7 +57,12 @@ def shown(value: object) -> str:
         return f"a list of {len(value)} values"
     else:
         value = _literal(list(value) if isinstance(value, tuple) else value)
-    text = ascii(value)[1:-1] if not value.isprintable() else value
+    return named(value)
+
+
+def named(text: str) -> str:
+    """Return a text without quotes of its own, such as a field's name, as a message shows it; see `shown`."""
+    text = text if text.isprintable() else ascii(text)[1:-1]
     return text if len(text) <= _SHOWN_CHARACTERS else text[: _SHOWN_CHARACTERS - 1] + "…"
 
 

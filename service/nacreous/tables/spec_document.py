@@ -17,7 +17,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from nacreous.errors import SpecError, reason
-from nacreous.optics.value import REFUSED, is_form_tag, shown
+from nacreous.optics.value import REFUSED, is_form_tag, named, shown
 
 __all__ = ["MAX_BYTES", "Document", "Syntax", "assigned", "override", "parse", "read", "spec_error"]
 
@@ -174,7 +174,7 @@ def _reason(error: Exception) -> str:
         return "half of a surrogate pair"
     if isinstance(error, RecursionError):
         return "one nested too deeply"
-    return shown(str(error)).removeprefix('"').removesuffix('"')
+    return named(str(error))
 
 
 # ---- overrides ---------------------------------------------------------------------------------------------
@@ -274,9 +274,9 @@ def spec_error(error: ValidationError) -> SpecError:
     """Return the first thing that pydantic found, as the one message that a person reads."""
     first, *others = error.errors(include_url=False)
     kind, context = first["type"], first.get("ctx", {})
-    path = [str(part) for part in first["loc"] if not is_form_tag(part)]
+    path = [named(str(part)) for part in first["loc"] if not is_form_tag(part)]
     if context.get("field") and kind == REFUSED:
-        path.append(context["field"])
+        path.append(named(context["field"]))
     got = "nothing" if kind == "missing" else shown(first["input"])
     return SpecError(
         field=".".join(path),

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from starlette.requests import Request
 
 from nacreous.errors import SpecError
-from nacreous.optics.value import did_you_mean, shown
+from nacreous.optics.value import did_you_mean, named, shown
 
 __all__ = ["chosen_word", "query", "whole_number"]
 
@@ -20,15 +20,11 @@ def query(request: Request, known: Sequence[str] = ()) -> dict[str, str]:
     for name, value in request.query_params.multi_items():
         if name not in known:
             expected = f"one of the query parameters {', '.join(known)}" if known else "no query parameters"
-            raise SpecError(_named(name), expected, "an unknown one", did_you_mean(name, known))
+            raise SpecError(named(name), expected, "an unknown one", did_you_mean(name, known))
         if name in found:
             raise SpecError(name, "one value", "two")
         found[name] = value
     return found
-
-
-def _named(name: str) -> str:
-    return shown(name).removeprefix('"').removesuffix('"')
 
 
 def whole_number(parameters: dict[str, str], name: str, default: int, most: int) -> int:

@@ -8,10 +8,10 @@ import { LostError } from "../service/problem";
 import { serviceVersion } from "../service/service";
 import { lost, returns } from "../state/connection";
 import { canRedo, canUndo, edit, endGesture, redo, spec, undo } from "../state/editor";
-import { type Theme, theme, THEMES } from "../state/theme";
+import { THEME_CHOICES, type ThemeChoice, themeChoice } from "../state/theme";
 import "./header.css";
 
-const THEME_WORDS: Record<Theme, string> = { system: "System", light: "Light", dark: "Dark" };
+const THEME_WORDS: Record<ThemeChoice, string> = { system: "System", light: "Light", dark: "Dark" };
 
 export function Header() {
   useEffect(followUndoKeys, []);
@@ -59,10 +59,10 @@ function ThemeSwitch() {
   return (
     <select
       aria-label="Light or dark"
-      value={theme.value}
-      onChange={({ currentTarget }) => (theme.value = currentTarget.value as Theme)}
+      value={themeChoice.value}
+      onChange={({ currentTarget }) => (themeChoice.value = currentTarget.value as ThemeChoice)}
     >
-      {THEMES.map((name) => <option key={name} value={name}>{THEME_WORDS[name]}</option>)}
+      {THEME_CHOICES.map((name) => <option key={name} value={name}>{THEME_WORDS[name]}</option>)}
     </select>
   );
 }

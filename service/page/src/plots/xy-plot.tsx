@@ -4,9 +4,10 @@ import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 
-import { plotFont, theme, token } from "./theme";
+import { plotFont, token } from "./tokens";
 import { useSize } from "./use-size";
 import "./xy-plot.css";
+import { theme } from "../state/theme";
 
 export interface XyAxis {
   readonly label: string;

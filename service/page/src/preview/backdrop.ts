@@ -2,9 +2,8 @@
 
 import { DataTexture, FloatType, LinearFilter, LinearSRGBColorSpace, Mesh, PlaneGeometry, RGBAFormat, ShaderMaterial, type Texture } from "three";
 
+import type { Theme } from "../state/theme";
 import type { Light } from "../state/view";
-
-export type Theme = "light" | "dark";
 
 /** Greys from the bottom to the top, in linear light: darker than a page, or a bubble would not be seen against it. */
 const GREYS: Readonly<Record<Theme, readonly number[]>> = {

@@ -50,11 +50,14 @@ export class Pace {
   }
 
   async #run(): Promise<void> {
-    while (this.#asked) {
-      this.#asked = false;
-      await this.#drawOnce();
+    try {
+      while (this.#asked) {
+        this.#asked = false;
+        await this.#drawOnce();
+      }
+    } finally {
+      this.#drawing = false; // a frame that failed is no reason to draw none again
     }
-    this.#drawing = false;
     if (!this.#isMoving) this.onMood("still");
   }
 

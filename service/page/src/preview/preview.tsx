@@ -5,18 +5,19 @@ import { useEffect, useRef } from "preact/hooks";
 
 import { Choice } from "./choice";
 import "./preview.css";
+import { NoWebGLError } from "./no-webgl";
 import type { Stage } from "./stage";
 import { drawSwatch } from "./swatch";
-import { watchTheme } from "./theme";
 import { turnBy } from "./turning";
 import { spec } from "../state/editor";
 import { type Lookup, lookup } from "../state/lookup";
+import { theme } from "../state/theme";
 import { type Light, LIGHTS, light, type Shape, SHAPES, shape } from "../state/view";
 
 const CALLED: Readonly<Record<Shape, string>> = { sphere: "a sphere", teapot: "a teapot", wing: "butterfly wings", lens: "a lens" };
 const LIT: Readonly<Record<Light, string>> = { studio: "studio light", overcast: "an overcast sky", sunset: "sunset" };
 
-/** Why there is no WebGL; empty where there is. */
+/** Why nothing can be drawn in three dimensions; empty where it can. */
 const missing = signal("");
 
 export function Preview() {
@@ -54,7 +55,7 @@ function Solid() {
   );
 }
 
-/** Without WebGL: why, and the colours as they are. */
+/** Why there is no solid shape, and the colours as they are. */
 function Flat() {
   const canvas = useRef<HTMLCanvasElement>(null);
   const film = lookup.value.answer?.reflectance;
@@ -65,8 +66,7 @@ function Flat() {
     <div class="preview-flat">
       <canvas ref={canvas} width={320} height={320} role="img" aria-label={`Colours of ${spec.value.name || "the film"} over the angle`} />
       <p role="status">
-        This browser offers no WebGL 2, which the preview is drawn with. The disc shows the colours of the film from
-        straight ahead in the middle to grazing at its edge.
+        {missing.value} The disc shows the colours of the film from straight ahead in the middle to grazing at its edge.
       </p>
     </div>
   );
@@ -78,34 +78,35 @@ function staged(canvas: HTMLCanvasElement): () => void {
   import("./stage").then(({ Stage }) => {
     if (!ended.signal.aborted) perform(new Stage(canvas, (drawn) => note(canvas, drawn)), canvas, ended.signal);
   }).catch((error: unknown) => {
-    missing.value = error instanceof Error ? error.message : String(error);
+    missing.value = error instanceof NoWebGLError ? error.message : "The preview could not be loaded: reload the page to try again.";
     effect(() => void (isSettled(lookup.value.answer) && setReady()));
   });
   return () => ended.abort();
 }
 
 function perform(stage: Stage, canvas: HTMLCanvasElement, signal: AbortSignal): void {
-  const theme = watchTheme(signal);
   const sizes = new ResizeObserver(() => stage.resize(canvas.clientWidth, canvas.clientHeight));
   sizes.observe(canvas);
   turnBy(canvas, stage, signal);
   const stops = [
     effect(() => stage.show({ shape: shape.value, light: light.value, theme: theme.value })),
-    effect(() => wear(stage)),
+    wearing(stage),
     () => sizes.disconnect(),
     () => stage.dispose(),
   ];
   signal.addEventListener("abort", () => stops.forEach((stop) => stop()));
 }
 
-let worn: Lookup | undefined;
-
-function wear(stage: Stage): void {
-  const { answer, problem } = lookup.value;
-  if (problem) setReady();
-  if (!answer || answer === worn) return;
-  worn = answer;
-  stage.wear(answer, answer.pace === "resting" ? "fine" : "coarse");
+/** Put every film that comes on the shape, until the returned function is called. */
+function wearing(stage: Stage): () => void {
+  let worn: Lookup | undefined;
+  return effect(() => {
+    const { answer, problem } = lookup.value;
+    if (problem) setReady();
+    if (!answer || answer === worn) return;
+    worn = answer;
+    stage.wear(answer, answer.pace === "resting" ? "fine" : "coarse");
+  });
 }
 
 /** What has been drawn, for whoever cannot see it. */

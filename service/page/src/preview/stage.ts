@@ -4,15 +4,17 @@ import { NacreousMaterial } from "@nacreous/three";
 import { DoubleSide, FrontSide, Mesh, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 
 import { appearance, isBubble } from "./appearance";
-import { backdrop, type Shadow, shadow, type Theme } from "./backdrop";
+import { backdrop, type Shadow, shadow } from "./backdrop";
 import { environment } from "./environment";
 import { finished } from "./finished";
-import { forThisGpu, freeTextures } from "./textures";
+import { NoWebGLError } from "./no-webgl";
+import { type Films, forThisGpu, freeTextures } from "./textures";
 import { Orbit } from "./orbit";
 import { type Mood, Pace } from "./pace";
 import { type ShapeModel, shapeModel } from "./shapes/shape";
 import { setTone } from "./tone";
 import type { Lookup } from "../state/lookup";
+import type { Theme } from "../state/theme";
 import type { Light, Shape } from "../state/view";
 
 /** How a film is looked at. */
@@ -35,6 +37,7 @@ export class Stage {
   #model: ShapeModel = shapeModel("sphere");
   #view: View | undefined;
   #lookup: Lookup | undefined;
+  #films: Films | undefined;
   #size: readonly [number, number] = [1, 1];
 
   /** @throws Error if there is no WebGL 2. */
@@ -72,12 +75,10 @@ export class Stage {
 
   /** Show a film. Only its textures change where it is of the kind of the last one. */
   wear(lookup: Lookup, kind: "coarse" | "fine"): void {
-    const before = this.#lookup;
+    const before = this.#films;
     this.#lookup = lookup;
-    const { reflectance, transmittance } = forThisGpu(lookup, this.#renderer);
-    const through = this.#isSeenThrough() ? transmittance : undefined;
-    if (this.#mesh) this.#mesh.material.setFilm(reflectance, through);
-    else this.#firstMesh(new NacreousMaterial({ film: reflectance, ...(through ? { transmittance: through } : {}) }));
+    this.#films = forThisGpu(lookup, this.#renderer);
+    this.#mesh ??= this.#firstMesh(this.#films);
     this.#dress();
     if (before) freeTextures(before);
     if (kind === "fine") this.#pace.still();
@@ -90,9 +91,10 @@ export class Stage {
     this.#renderer.dispose();
   }
 
-  #firstMesh(material: NacreousMaterial): void {
-    this.#mesh = new Mesh(this.#model.geometry, material);
-    this.#scene.add(this.#mesh);
+  #firstMesh({ reflectance }: Films): Mesh<ShapeModel["geometry"], NacreousMaterial> {
+    const mesh = new Mesh(this.#model.geometry, new NacreousMaterial({ film: reflectance }));
+    this.#scene.add(mesh);
+    return mesh;
   }
 
   #exchange(model: ShapeModel): void {
@@ -101,10 +103,7 @@ export class Stage {
     this.#model = model;
     this.#shadow.position.y = model.shadow.y;
     this.#shadow.scale.setScalar(1.9 * model.shadow.radius);
-    if (!this.#mesh || !this.#lookup) return;
-    this.#mesh.geometry = model.geometry;
-    const { reflectance, transmittance } = forThisGpu(this.#lookup, this.#renderer);
-    this.#mesh.material.setFilm(reflectance, this.#isSeenThrough() ? transmittance : undefined);
+    if (this.#mesh) this.#mesh.geometry = model.geometry;
     this.#dress();
   }
 
@@ -115,10 +114,12 @@ export class Stage {
     return isBubble(lookup.spec) || this.#model.glass !== undefined;
   }
 
-  /** What the surface of the spec and the shape ask of the material, beside the film. */
+  /** Put the film on the shape, and what the surface of the spec and the shape ask of the material beside it. */
   #dress(): void {
-    if (!this.#mesh || !this.#lookup) return;
+    if (!this.#mesh || !this.#lookup || !this.#films) return;
     const { material } = this.#mesh;
+    const { reflectance, transmittance } = this.#films;
+    material.setFilm(reflectance, this.#isSeenThrough() ? transmittance : undefined);
     const { ground, ...look } = appearance(this.#lookup.spec);
     const isThrough = this.#isSeenThrough();
     const isThin = isBubble(this.#lookup.spec);
@@ -166,6 +167,6 @@ export class Stage {
 /** Asked for here, because three complains on the console where there is none. */
 function webgl(canvas: HTMLCanvasElement): WebGL2RenderingContext {
   const context = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance" });
-  if (!context) throw new Error("expected WebGL 2, found none");
+  if (!context) throw new NoWebGLError();
   return context;
 }

@@ -5,7 +5,8 @@ import { DataTexture, DataUtils, HalfFloatType, type WebGLRenderer } from "three
 
 import type { Lookup } from "../state/lookup";
 
-type Films = Pick<Lookup, "reflectance" | "transmittance">;
+/** The film's colours as a material takes them. */
+export type Films = Pick<Lookup, "reflectance" | "transmittance">;
 
 /** As they came; in half precision where the GPU filters no others, as on some phones. */
 export function forThisGpu(films: Films, renderer: WebGLRenderer): Films {
