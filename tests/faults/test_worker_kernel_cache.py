@@ -21,8 +21,8 @@ from nacreous.engine.worker_engine import WorkerEngine, WorkerSettings
 from worker_engines import film_work, patiently, running, until
 
 BEYOND_COMPILING_S = 5.0
-THIN = film_work(100.0, size=64)
-"""A film that is thin, at many angles: its kernels are none that a start compiles."""
+THIN = film_work(100.0, size=128)
+"""A film that is thin, and large: its kernels are none that a start compiles."""
 
 
 def truncated(kernel: bytes) -> bytes:

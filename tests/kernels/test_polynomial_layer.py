@@ -7,6 +7,7 @@ import pytest
 
 from kernel_film import one_run, plain_problem
 from lane_widths import lane_widths
+from nacreous.opencl import layer_polynomials
 from nacreous.opencl.device import Device
 from nacreous.opencl.film import film_intensities
 from nacreous.opencl.film_problem import FilmProblem
@@ -28,6 +29,12 @@ FILMS = {
     "absent": (1.0, [2.0, 1.5], [0.0, 100.0]),
     "twenty": (1.0, [2.3, 1.4] * 10, [55.0, 95.0] * 10),
 }
+
+
+@pytest.fixture(autouse=True)
+def small_films_are_polynomials(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let films be as small as tests have them."""
+    monkeypatch.setattr(layer_polynomials, "_FEWEST_EVALUATIONS", 0)
 
 
 def thin_film(name: str, factor: float = 1.0) -> FilmProblem:
@@ -148,3 +155,12 @@ def test_a_gap_in_a_dense_medium_has_waves() -> None:
 def test_a_bare_surface_has_no_polynomials() -> None:
     """There is no layer to take the largest thickness of."""
     assert layer_degree(one_run(plain_problem([1, 1.5], [], WAVELENGTH_NM, MU)), Precision.SINGLE) == 0
+
+
+def test_little_work_has_waves(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is done in a few milliseconds either way needs no program of its own."""
+    monkeypatch.undo()
+    film = thin_film("clear")
+    finer = np.linspace(0, 1, 1 + 4_000_000 // (4 * WAVELENGTH_NM.size))
+    assert layer_degree(film, Precision.SINGLE) == 0
+    assert layer_degree(replace(film, cos_theta=finer), Precision.SINGLE) == DEGREES[0]

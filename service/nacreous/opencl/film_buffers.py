@@ -92,9 +92,9 @@ def _padded(problem: FilmProblem, lanes: int) -> FilmProblem:
     missing = -problem.wavelength_nm.size % lanes
     if missing == 0:
         return problem
-    wavelength_nm = np.pad(problem.wavelength_nm, (0, missing), mode="edge")
-    index = np.pad(problem.index, ((0, 0), (0, missing)), mode="edge")
-    return replace(problem, wavelength_nm=wavelength_nm, index=index)
+    last = problem.wavelength_nm.size - 1
+    at = np.minimum(np.arange(last + 1 + missing), last)
+    return replace(problem, wavelength_nm=problem.wavelength_nm[at], index=problem.index[:, at])
 
 
 def _media(index: NDArray[np.complex128]) -> NDArray[np.float64]:
@@ -120,4 +120,6 @@ def _critical_mu2(index: NDArray[np.complex128], lanes: int) -> NDArray[np.float
 
 def upload_colour_weights(device: Device, weights: NDArray[np.float64], stride: int, dtype: Any) -> Any:  # noqa: ANN401 - pyopencl is untyped
     """Copy weights (3, L) into a buffer of (3, stride), in which what pads the wavelengths weighs nothing."""
-    return upload(device, np.pad(weights, ((0, 0), (0, stride - weights.shape[1]))), dtype)
+    padded = np.zeros((len(weights), stride), dtype)
+    padded[:, : weights.shape[1]] = weights
+    return upload(device, padded, dtype)

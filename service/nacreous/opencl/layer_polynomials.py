@@ -31,6 +31,10 @@ _TOLERANCE = 2.5e-7
 _FEWEST_ANGLES = 48
 """Fewer do not pay for the coefficients."""
 
+_FEWEST_EVALUATIONS = 4_000_000
+"""Fewer layers times angles times wavelengths take a few milliseconds either way, and are what moves under a
+slider: a program of their own, which may first have to be compiled, would be felt."""
+
 _MOST_DECAY = 1.0
 """Difference of a layer's decay between grazing and normal incidence: what it divides out costs digits."""
 
@@ -43,7 +47,9 @@ def layer_degree(problem: FilmProblem, precision: Precision) -> int:
     thicknesses, wavelengths = problem.thickness_nm.size, problem.wavelength_nm.size
     if precision is Precision.DOUBLE or problem.incoherent or problem.cos_theta.size < _FEWEST_ANGLES:
         return 0
-    if thicknesses == 0 or _decay_range(problem) > _MOST_DECAY:
+    if thicknesses == 0 or thicknesses * problem.cos_theta.size * wavelengths < _FEWEST_EVALUATIONS:
+        return 0
+    if _decay_range(problem) > _MOST_DECAY:
         return 0
     n0_over_lambda = float((problem.index[0].real / problem.wavelength_nm).max())
     half_width = (2 * math.pi * float(problem.thickness_nm.max()) * n0_over_lambda) ** 2 / 2

@@ -26,6 +26,7 @@ __all__ = [
     "film_problem",
     "optical_thickness_nm",
     "phase_precision",
+    "problem_of",
     "segments",
 ]
 
@@ -71,7 +72,11 @@ def film_problem(stack: Stack, spread: ThicknessSpread, grid: Grid) -> FilmProbl
     BudgetError
         The thicknesses alone exceed the byte budget.
     """
-    sampled = sample_stack(stack, grid.wavelength_nm)
+    return problem_of(sample_stack(stack, grid.wavelength_nm), spread, grid)
+
+
+def problem_of(sampled: SampledStack, spread: ThicknessSpread, grid: Grid) -> FilmProblem:
+    """Return the same of a stack that has been sampled at the grid's wavelengths."""
     thicknesses = grid.thickness_scale.size * spread.offset_nm.size
     require(f"a film of {thicknesses:,} thicknesses", thicknesses * np.dtype(np.float64).itemsize)
     variants = sampled.thickness_nm + spread.offset_nm  # (V, M)

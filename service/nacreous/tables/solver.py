@@ -1,6 +1,6 @@
 """One spec's film, ready to be evaluated at any points: what tables and certificates are computed with."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_colour import Side, film_colours
 from nacreous.opencl.film_ellipsometry import film_ellipsometry
+from nacreous.opencl.film_problem import FilmProblem
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.tiles import Observer
-from nacreous.optics.stack import Stack, sample_stack
-from nacreous.tables.film import Grid, checked_intensities, film_problem, phase_precision
+from nacreous.optics.stack import SampledStack, Stack, sample_stack
+from nacreous.tables.film import Grid, checked_intensities, film_problem, phase_precision, problem_of
 from nacreous.tables.thickness_spread import ThicknessSpread, converged_spread, one_thickness
 
 __all__ = ["FilmSolver", "film_solver", "probe", "probe_of"]
@@ -46,6 +47,7 @@ class FilmSolver:
     spread: ThicknessSpread
     precision: Precision
     transmits: bool
+    _sampled: dict[bytes, SampledStack] = field(init=False, repr=False, default_factory=dict)
 
     @property
     def sides(self) -> tuple[Side, ...]:
@@ -54,30 +56,37 @@ class FilmSolver:
 
     def intensities(self, grid: Grid, observer: Observer | None = None) -> dict[str, NDArray[np.floating]]:
         """R_s, R_p, T_s and T_p of shape (S, A, L), in the table's precision."""
-        problem = film_problem(self.stack, self.spread, grid)
+        problem = self._problem(grid)
         return checked_intensities(self.device, problem, self.precision, observer)
 
     def exact_intensities(self, grid: Grid) -> dict[str, NDArray[np.floating]]:
         """R_s, R_p, T_s and T_p of shape (S, A, L), in double precision."""
-        problem = film_problem(self.stack, self.spread, grid)
+        problem = self._problem(grid)
         return checked_intensities(self.device, problem, Precision.DOUBLE)
 
     def ellipsometry(self, grid: Grid, observer: Observer | None = None) -> dict[str, NDArray[np.floating]]:
         """Ellipsometric psi and Delta of shape (S, A, L), in radians."""
-        problem = film_problem(self.stack, self.spread, grid)
+        problem = self._problem(grid)
         return film_ellipsometry(self.device, problem, self.precision, observer=observer)
 
     def colours(
         self, grid: Grid, weights: FloatArray, sides: tuple[Side, ...], observer: Observer | None = None
     ) -> NDArray[np.floating]:
         """Linear colours of R, T or both, (sides, S, A, 3), the grid's wavelengths weighted with (3, L)."""
-        problem = film_problem(self.stack, self.spread, grid)
+        problem = self._problem(grid)
         return film_colours(self.device, problem, weights, sides, self.precision, observer=observer)
 
     def exact_colours(self, grid: Grid, weights: FloatArray, sides: tuple[Side, ...]) -> FloatArray:
         """Return the same in double precision."""
-        problem = film_problem(self.stack, self.spread, grid)
+        problem = self._problem(grid)
         return np.asarray(film_colours(self.device, problem, weights, sides, Precision.DOUBLE))
+
+    def _problem(self, grid: Grid) -> FilmProblem:
+        """Lay the film out; the materials are sampled once for each set of wavelengths."""
+        wavelengths = grid.wavelength_nm.tobytes()
+        if wavelengths not in self._sampled:
+            self._sampled[wavelengths] = sample_stack(self.stack, grid.wavelength_nm)
+        return problem_of(self._sampled[wavelengths], self.spread, grid)
 
 
 def film_solver(device: Device, stack: Stack, grid: Grid, asked: Precision) -> FilmSolver:
