@@ -14,7 +14,7 @@ kernel void film(FILM_ARGUMENTS,
 
     film_stack first = FILM_STACK, stack = later_variant(first, scale * variants);
     wave waves[MEDIA];
-    incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
+    incidence in = incidence_at(stack, incident, block, angle, waves);
     intensities mean = mean_intensities(stack, weights, variants, in);
 
     int out = tile_row * (stride / LANES) + block;

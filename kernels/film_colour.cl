@@ -26,7 +26,7 @@ kernel void film_colour(FILM_ARGUMENTS,
     lane sums[3 * SIDES];
     for (int c = 0; c < 3 * SIDES; ++c) sums[c] = (lane)(0);
     for (int block = 0; block < stride / LANES; ++block) {
-        incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
+        incidence in = incidence_at(stack, incident, block, angle, waves);
         intensities I = mean_intensities(stack, weights, variants, in);
         add_block(sums, I.R_s, I.R_p, colour_weights, stride, block);
 #if SIDES == 2

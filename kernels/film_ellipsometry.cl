@@ -12,7 +12,7 @@ kernel void film_ellipsometry(FILM_ARGUMENTS,
 
     film_stack first = FILM_STACK, stack = later_variant(first, scale * variants);
     wave waves[MEDIA];
-    incidence in = incidence_at(stack, incident, block, cos_theta[angle], waves);
+    incidence in = incidence_at(stack, incident, block, angle, waves);
     magnitude size = no_magnitude();
     column f = coherent_field(stack, in, &size);
     rescale(&f, 1, &size);

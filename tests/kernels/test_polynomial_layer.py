@@ -7,11 +7,12 @@ import pytest
 
 from kernel_film import one_run, plain_problem
 from lane_widths import lane_widths
-from nacreous.opencl import layer_polynomials
+from nacreous.opencl import film_buffers, polynomials
 from nacreous.opencl.device import Device
 from nacreous.opencl.film import film_intensities
 from nacreous.opencl.film_problem import FilmProblem
-from nacreous.opencl.layer_polynomials import DEGREES, layer_degree, node_mu2, to_chebyshev, to_powers
+from nacreous.opencl.layer_polynomials import DEGREES, layer_degree, to_powers
+from nacreous.opencl.polynomials import node_mu2, to_chebyshev
 from nacreous.opencl.precision import Precision
 from reference import film
 
@@ -33,8 +34,9 @@ FILMS = {
 
 @pytest.fixture(autouse=True)
 def small_films_are_polynomials(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let films be as small as tests have them."""
-    monkeypatch.setattr(layer_polynomials, "_FEWEST_EVALUATIONS", 0)
+    """Let films be as small as tests have them, and none be a polynomial of its own."""
+    monkeypatch.setattr(polynomials, "_FEWEST_EVALUATIONS", 0)
+    monkeypatch.setattr(film_buffers, "stack_degree", lambda *_: 0)
 
 
 def thin_film(name: str, factor: float = 1.0) -> FilmProblem:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from nacreous.opencl import layer_polynomials
+from nacreous.opencl import polynomials
 from nacreous.opencl.device import Device
 from nacreous.opencl.film import film_intensities
 from nacreous.opencl.film_problem import FilmProblem, Segment
@@ -84,7 +84,7 @@ def random_problem(rng: np.random.Generator, draw: Draw, most_incident: float) -
 
 def test_a_hundred_million_samples(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     """R and T are finite and within [-1e-6, 1 + 2e-5], R + T <= 1 + 2e-5, and = 1 where nothing absorbs."""
-    monkeypatch.setattr(layer_polynomials, "_FEWEST_EVALUATIONS", 0)  # thin ones are polynomials
+    monkeypatch.setattr(polynomials, "_FEWEST_EVALUATIONS", 0)  # thin ones and thin layers are polynomials
     single_samples = 0
     for kind, (draw, most_incident) in KINDS.items():
         rng = np.random.default_rng(sorted(KINDS).index(kind))

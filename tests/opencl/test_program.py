@@ -11,15 +11,20 @@ from lane_widths import lane_widths
 from nacreous.errors import DeviceError
 from nacreous.opencl import sources
 from nacreous.opencl.device import Device
-from nacreous.opencl.layer_polynomials import DEGREES
+from nacreous.opencl.layer_polynomials import DEGREES as LAYER_DEGREES
+from nacreous.opencl.polynomials import Form
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
+from nacreous.opencl.stack_polynomials import DEGREES as STACK_DEGREES
 
 
 def test_a_kernel_is_built_once(device: Device) -> None:
     """The same build is the same kernel; in another lane width it is another."""
     build = Build(
-        "film", Precision.SINGLE, 4, (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("DEGREE", 0))
+        "film",
+        Precision.SINGLE,
+        4,
+        (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("POLYNOMIALS", 0), ("DEGREE", 0)),
     )
     assert kernel_of(device, build) is kernel_of(device, build)
     assert kernel_of(device, replace(build, lanes=1)) is not kernel_of(device, build)
@@ -47,7 +52,14 @@ def test_a_fault_is_found_by_file_and_line(
         "film",
         Precision.SINGLE,
         4,
-        (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("DEGREE", 0), ("FAULT", len(fault))),
+        (
+            ("INCOHERENT", 0),
+            ("PERIODIC", 0),
+            ("MEDIA", 4),
+            ("POLYNOMIALS", 0),
+            ("DEGREE", 0),
+            ("FAULT", len(fault)),
+        ),
     )
     with pytest.raises(DeviceError, match="kernel film does not build") as refused:
         kernel_of(device, build)
@@ -84,7 +96,17 @@ def ways_to_build(device: Device) -> list[tuple[Precision, int]]:
 def test_every_kernel_is_built_here() -> None:
     """A new kernel must be added below."""
     assert (
-        sorted([*FILM_NUMBERS, *ROUGH_KERNELS, "layer_polynomials", "microfacets", "register_width", "warp"])
+        sorted(
+            [
+                *FILM_NUMBERS,
+                *ROUGH_KERNELS,
+                "layer_polynomials",
+                "microfacets",
+                "register_width",
+                "stack_polynomials",
+                "warp",
+            ]
+        )
         == sources.kernel_names()
     )
 
@@ -95,26 +117,39 @@ def test_film_kernels_build_without_a_warning(kernel: str, precision: Precision,
     """With -Werror, for every precision and lane width; the options on and off."""
     for lanes, switch in product(lane_widths(device, precision), (0, 1)):
         switches = ((name, switch) for name in FILM_NUMBERS[kernel])
-        numbers = (*switches, ("MEDIA", 4), ("SIDES", 1 + switch), ("DEGREE", 0))
+        numbers = (*switches, ("MEDIA", 4), ("SIDES", 1 + switch), ("POLYNOMIALS", 0), ("DEGREE", 0))
         assert kernel_of(device, Build(kernel, precision, lanes, numbers)).function_name == kernel
 
 
-@pytest.mark.parametrize("degree", DEGREES)
-def test_films_of_polynomials_build_without_a_warning(degree: int, device: Device) -> None:
+@pytest.mark.parametrize("degree", LAYER_DEGREES)
+def test_films_of_polynomial_layers_build_without_a_warning(degree: int, device: Device) -> None:
     """Their coefficients and what reads them, in single precision and every lane width."""
     for lanes in lane_widths(device, Precision.SINGLE):
         coefficients = Build("layer_polynomials", Precision.SINGLE, lanes, (("DEGREE", degree),))
         assert kernel_of(device, coefficients).function_name == "layer_polynomials"
         for kernel, periodic in product(FILM_NUMBERS, (0, 1)):
-            switches = (
-                ("INCOHERENT", 0),
-                ("PERIODIC", periodic),
-                ("MEDIA", 4),
-                ("SIDES", 2),
-                ("DEGREE", degree),
+            build = Build(
+                kernel, Precision.SINGLE, lanes, polynomial_numbers(Form.OF_LAYERS, degree, periodic)
             )
-            build = Build(kernel, Precision.SINGLE, lanes, switches)
             assert kernel_of(device, build).function_name == kernel
+
+
+@pytest.mark.parametrize("degree", STACK_DEGREES)
+def test_films_of_polynomial_stacks_build_without_a_warning(degree: int, device: Device) -> None:
+    """Their coefficients, which waves cross the layers for, and what reads them."""
+    for lanes in lane_widths(device, Precision.SINGLE):
+        waves = polynomial_numbers(Form.WAVES, degree)
+        coefficients = Build("stack_polynomials", Precision.SINGLE, lanes, waves)
+        assert kernel_of(device, coefficients).function_name == "stack_polynomials"
+        for kernel in FILM_NUMBERS:
+            build = Build(kernel, Precision.SINGLE, lanes, polynomial_numbers(Form.OF_STACK, degree))
+            assert kernel_of(device, build).function_name == kernel
+
+
+def polynomial_numbers(form: Form, degree: int, periodic: int = 0) -> tuple[tuple[str, int], ...]:
+    """Return what a film kernel is built with."""
+    film = ("INCOHERENT", 0), ("PERIODIC", periodic), ("MEDIA", 4), ("SIDES", 2)
+    return (*film, ("POLYNOMIALS", form), ("DEGREE", degree))
 
 
 @pytest.mark.parametrize("numbers", FACET_NUMBERS)

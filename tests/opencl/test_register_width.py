@@ -9,7 +9,7 @@ from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
 from nacreous.opencl.register_width import lane_width
 
-FILM = (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("DEGREE", 0))
+FILM = (("INCOHERENT", 0), ("PERIODIC", 0), ("MEDIA", 4), ("POLYNOMIALS", 0), ("DEGREE", 0))
 
 
 @pytest.mark.parametrize("precision", Precision)

@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_problem import FilmProblem
 from nacreous.opencl.layer_polynomials import layer_degree, layer_polynomials
+from nacreous.opencl.polynomials import Form, Polynomials
 from nacreous.opencl.precision import Precision
+from nacreous.opencl.stack_polynomials import stack_degree, stack_polynomials
 from nacreous.opencl.upload import upload
 
 __all__ = ["FilmBuffers", "film_buffers", "upload_colour_weights"]
@@ -47,29 +49,50 @@ def film_buffers(device: Device, problem: FilmProblem, precision: Precision, lan
     medium_of = upload(device, np.array(problem.medium_of), np.int32)
     thickness_nm = upload(device, problem.thickness_nm, dtype)
     incident = upload(device, np.stack([n0, 1 / n0, 1 / padded.wavelength_nm]), dtype)  # (3, stride)
-    degree = layer_degree(problem, precision)
     critical_mu2 = upload(device, _critical_mu2(index, lanes), dtype)
-    film = (media, critical_mu2, medium_of, incident, thickness_nm)
-    polynomials = thickness_nm
-    if degree:
-        polynomials = layer_polynomials(device, film, problem, degree, precision, lanes)
     segments = np.array([(s.first, s.stop, s.repeat) for s in problem.segments], np.int32)
     variants, layers = problem.thickness_nm.shape[1:]
     counts = (len(numbers), len(segments), layers, stride, _rescale_after(problem))
-    arguments = (
+    film = (
         media,
         critical_mu2,
         medium_of,
         upload(device, segments, np.int32),
         *map(np.int32, counts),
         thickness_nm,
-        polynomials,
+    )
+    polynomials = _polynomials(device, film, incident, problem, precision, lanes)
+    cosines = upload(device, problem.cos_theta, dtype)
+    arguments = (
+        *film,
+        polynomials.coefficients or thickness_nm,  # a kernel without polynomials has no use for its argument
         incident,
-        upload(device, problem.cos_theta, dtype),
+        cosines,
+        polynomials.chebyshev or cosines,
         upload(device, problem.weights, dtype),
         *map(np.int32, (variants, problem.shape[1])),
     )
-    return FilmBuffers(arguments, stride, (*problem.build_numbers, ("DEGREE", degree)))
+    return FilmBuffers(arguments, stride, (*problem.build_numbers, *polynomials.build_numbers))
+
+
+def _polynomials(
+    device: Device,
+    film: tuple[Any, ...],
+    incident: Any,  # noqa: ANN401 - pyopencl is untyped
+    problem: FilmProblem,
+    precision: Precision,
+    lanes: int,
+) -> Polynomials:
+    """Return those of the stack, else those of its layers, else none, whichever is exact and pays."""
+    thickness_nm = film[-1]
+    if degree := stack_degree(problem, precision):
+        arguments = (*film, thickness_nm, incident)
+        if found := stack_polynomials(device, arguments, problem, degree, precision, lanes):
+            return found
+    if degree := layer_degree(problem, precision):
+        layers = (*film[:3], incident, thickness_nm)
+        return layer_polynomials(device, layers, problem, degree, precision, lanes)
+    return Polynomials(Form.WAVES, 0, None)
 
 
 def _rescale_after(problem: FilmProblem) -> int:

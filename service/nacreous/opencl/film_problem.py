@@ -63,14 +63,18 @@ class FilmProblem:
         return any(segment.repeat == THICK for segment in self.segments)
 
     @property
+    def periodic(self) -> bool:
+        """Whether any layers are a group that repeats."""
+        return any(segment.repeat > 1 for segment in self.segments)
+
+    @property
     def build_numbers(self) -> tuple[tuple[str, int], ...]:
         """What the kernels are compiled for: the kinds of segments that there are, and room for media.
 
         The room is a power of four, so that few programs serve all films.
         """
-        periodic = any(segment.repeat > 1 for segment in self.segments)
         room = next(room for n in itertools.count(1) if (room := 4**n) >= max(self.medium_of) + 1)
-        return ("INCOHERENT", int(self.incoherent)), ("PERIODIC", int(periodic)), ("MEDIA", room)
+        return ("INCOHERENT", int(self.incoherent)), ("PERIODIC", int(self.periodic)), ("MEDIA", room)
 
     @functools.cached_property
     def medium_of(self) -> tuple[int, ...]:

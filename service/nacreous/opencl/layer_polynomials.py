@@ -16,51 +16,46 @@ from numpy.typing import NDArray
 
 from nacreous.opencl.device import Device
 from nacreous.opencl.film_problem import FilmProblem
+from nacreous.opencl.polynomials import (
+    MOST_NUMBERS,
+    TOLERANCE,
+    Form,
+    Polynomials,
+    is_worth_a_program,
+    node_mu2,
+    to_chebyshev,
+)
 from nacreous.opencl.precision import Precision
 from nacreous.opencl.program import Build, kernel_of
-from nacreous.opencl.upload import upload
+from nacreous.opencl.upload import empty_buffer, upload
 
-__all__ = ["DEGREES", "layer_degree", "layer_polynomials", "node_mu2", "to_chebyshev", "to_powers"]
+__all__ = ["DEGREES", "layer_degree", "layer_polynomials", "to_powers"]
 
 DEGREES = (4, 6, 8)
 """Degrees that kernels are built for: few programs serve all films. Above the last, waves cost no more."""
 
-_TOLERANCE = 2.5e-7
-"""What a wave loses as its phase, half a turn in a quarter-wave layer and its like, is rounded to 24 bits."""
-
 _FEWEST_ANGLES = 48
 """Fewer do not pay for the coefficients."""
-
-_FEWEST_EVALUATIONS = 4_000_000
-"""Fewer layers times angles times wavelengths take a few milliseconds either way, and are what moves under a
-slider: a program of their own, which may first have to be compiled, would be felt."""
 
 _MOST_DECAY = 1.0
 """Difference of a layer's decay between grazing and normal incidence: what it divides out costs digits."""
 
-_MOST_NUMBERS = 2**24
-"""Coefficients of all layers: 64 MB, beyond which it takes as long to read as to compute."""
-
 
 def layer_degree(problem: FilmProblem, precision: Precision) -> int:
     """Return the degree by which all layers are as exact as single precision; 0 where waves are better."""
-    thicknesses, wavelengths = problem.thickness_nm.size, problem.wavelength_nm.size
     if precision is Precision.DOUBLE or problem.incoherent or problem.cos_theta.size < _FEWEST_ANGLES:
         return 0
-    if thicknesses == 0 or thicknesses * problem.cos_theta.size * wavelengths < _FEWEST_EVALUATIONS:
+    if not is_worth_a_program(problem) or _decay_range(problem) > _MOST_DECAY:
         return 0
-    if _decay_range(problem) > _MOST_DECAY:
-        return 0
-    n0_over_lambda = float((problem.index[0].real / problem.wavelength_nm).max())
-    half_width = (2 * math.pi * float(problem.thickness_nm.max()) * n0_over_lambda) ** 2 / 2
-    degree = next((degree for degree in DEGREES if _truncation(half_width, degree) < _TOLERANCE), 0)
-    return degree if thicknesses * wavelengths * _runs(degree) <= _MOST_NUMBERS else 0
+    degree = next((degree for degree in DEGREES if _truncation(problem, degree) < TOLERANCE), 0)
+    numbers = problem.thickness_nm.size * problem.wavelength_nm.size * _runs(degree)
+    return degree if numbers <= MOST_NUMBERS else 0
 
 
 def layer_polynomials(
     device: Device, film: tuple[Any, ...], problem: FilmProblem, degree: int, precision: Precision, lanes: int
-) -> Any:  # noqa: ANN401 - pyopencl is untyped
-    """Return a buffer that is being filled with the coefficients of a problem's layers.
+) -> Polynomials:
+    """Return the coefficients of a problem's layers, as they are being computed.
 
     Parameters
     ----------
@@ -72,15 +67,13 @@ def layer_polynomials(
 
     thicknesses, layers = problem.thickness_nm.size, problem.thickness_nm.shape[-1]
     blocks = -(-problem.wavelength_nm.size // lanes)
-    numbers = thicknesses * blocks * lanes * _runs(degree)
-    size = numbers * np.dtype(precision.dtype).itemsize
-    filled = cl.Buffer(device.context, cl.mem_flags.READ_WRITE, size)
+    filled = empty_buffer(device, (thicknesses, blocks * lanes, _runs(degree)), precision.dtype)
     nodes = upload(device, _interpolation(degree), precision.dtype)
     counts = map(np.int32, (layers, blocks * lanes, thicknesses))
     kernel = kernel_of(device, Build("layer_polynomials", precision, lanes, (("DEGREE", degree),)))
     kernel.set_args(*film, *counts, nodes, filled)
     cl.enqueue_nd_range_kernel(device.queue, kernel, (blocks, thicknesses), (1, 1))
-    return filled
+    return Polynomials(Form.OF_LAYERS, degree, filled)
 
 
 @cache
@@ -95,6 +88,13 @@ def _runs(degree: int) -> int:
     return 4 * (degree + 1) + 1
 
 
+def _truncation(problem: FilmProblem, degree: int) -> float:
+    n0_over_lambda = float((problem.index[0].real / problem.wavelength_nm).max())
+    half_width = (2 * math.pi * float(problem.thickness_nm.max()) * n0_over_lambda) ** 2 / 2
+    terms = degree + 1
+    return half_width**terms / (math.factorial(2 * terms) * 2.0**degree)
+
+
 def _decay_range(problem: FilmProblem) -> float:
     """Largest 2 pi d (Im kz at mu = 0 - Im kz at mu = 1) / lambda of layers less dense than the outside."""
     index, n0 = problem.index[1:-1], problem.index[0].real
@@ -104,25 +104,8 @@ def _decay_range(problem: FilmProblem) -> float:
     return float(2 * math.pi * (turns * change).max(initial=0))
 
 
-def _truncation(half_width: float, degree: int) -> float:
-    terms = degree + 1
-    return half_width**terms / (math.factorial(2 * terms) * 2.0**degree)
-
-
-def node_mu2(degree: int) -> NDArray[np.float64]:
-    """Chebyshev nodes of mu^2 on [0, 1], (D + 1,)."""
-    nodes: NDArray[np.float64] = (1 + chebyshev.chebpts1(degree + 1)) / 2
-    return nodes
-
-
-def to_chebyshev(degree: int) -> NDArray[np.float64]:
-    """Return what takes values at the nodes to coefficients of Chebyshev polynomials, (order, node)."""
-    values = chebyshev.chebvander(chebyshev.chebpts1(degree + 1), degree)  # (node, order)
-    return np.linalg.inv(values).astype(np.float64)
-
-
 def to_powers(degree: int) -> NDArray[np.float64]:
-    """Return what takes those to coefficients of powers of t = 2 mu^2 - 1, (power, order)."""
+    """Return what takes coefficients of Chebyshev polynomials to those of powers of t, (power, order)."""
     matrix = np.zeros((degree + 1, degree + 1))
     for order, unit in enumerate(np.eye(degree + 1)):
         powers = chebyshev.cheb2poly(unit)
