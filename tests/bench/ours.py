@@ -11,12 +11,12 @@ from nacreous.opencl.film_problem import FilmProblem, Segment
 from nacreous.opencl.precision import Precision
 from reference import Intensities
 
-TRANSPARENT_FLOP, DECAYING_FLOP = 44, 107
-"""Multiplications and additions to cross a layer (kernels/polynomial_layer.clh, field.clh): two or four
-polynomials of degree 4, 16 or 32, the fields of both polarisations 24 or 56, the rest products."""
+DEGREE, PARTS = 10, 16
+"""Of the polynomials that this stack is, and the real functions of the angle that both polarisations need."""
 
-FLOP_PER_LAYER_EVALUATION = (6 * TRANSPARENT_FLOP + 4 * DECAYING_FLOP) / 10
-"""Ten layers, four absorbing."""
+FLOP_PER_LAYER_EVALUATION = (2 * PARTS * DEGREE + 32) / 10
+"""Multiplications and additions of a sample (kernels/polynomial_stack.clh), the sums and the fields made of
+them, shared by the ten layers; the root of the substrate and R and T are left out."""
 
 
 def ours() -> Witness:

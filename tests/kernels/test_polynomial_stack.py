@@ -144,9 +144,10 @@ def test_colours_are_sums_over_the_reference(device: Device) -> None:
         np.testing.assert_allclose(got[side, 0], (s + p) / 2 @ weights.T, rtol=0, atol=TOLERANCE)
 
 
-def test_psi_and_delta_are_those_of_the_reference(device: Device) -> None:
-    """r_p / r_s comes of the same field, with its phase."""
-    problem = replace(stack("metal"), cos_theta=MU[5:])
+@pytest.mark.parametrize("name", ["metal", "into air"])
+def test_psi_and_delta_are_those_of_the_reference(name: str, device: Device) -> None:
+    """r_p / r_s comes of the same field, with its phase, which is all that total reflection has."""
+    problem = replace(stack(name), cos_theta=MU[5:])
     got = film_ellipsometry(device, problem, Precision.SINGLE)
     at = film(problem.index, problem.thickness_nm[0, 0], WAVELENGTH_NM, MU[5:])
     np.testing.assert_allclose(got["psi"][0], at.psi, rtol=0, atol=1e-4)
