@@ -7,7 +7,7 @@ import logging.config
 import time
 from datetime import UTC, datetime
 from functools import lru_cache
-from typing import Any, TextIO
+from typing import TextIO
 
 __all__ = ["JsonFormatter", "RequestRecord", "TogetherHandler", "configure", "log_request"]
 
@@ -22,8 +22,10 @@ class JsonFormatter(logging.Formatter):
 
     def format(self, record: logging.LogRecord) -> str:
         """Return the line; a traceback is one field of it."""
+        if isinstance(record, RequestRecord):
+            return record.line()
         line = {
-            "time": f"{_second(int(record.created))}.{int(record.created % 1 * 1e3):03d}+00:00",
+            "time": _time(record.created),
             "level": record.levelname.lower(),
             "logger": record.name,
             "event": record.getMessage(),
@@ -32,6 +34,10 @@ class JsonFormatter(logging.Formatter):
         if record.exc_info:
             line["traceback"] = self.formatException(record.exc_info)
         return json.dumps(line)
+
+
+def _time(seconds: float) -> str:
+    return f"{_second(int(seconds))}.{int(seconds % 1 * 1e3):03d}+00:00"
 
 
 @lru_cache(maxsize=2)
@@ -72,16 +78,36 @@ class TogetherHandler(logging.StreamHandler[TextIO]):
 
 
 class RequestRecord(logging.LogRecord):
-    """A request, without all that a record finds out of its caller and of its thread: every request pays."""
+    """A request, without all that a record finds out of its caller and of its thread: every request pays.
+
+    Its line is put together rather than encoded, which would take a quarter of the way of a file in memory.
+    """
 
     name, msg, args = _LOGGER.name, "request", None
     levelname, levelno = "INFO", logging.INFO
     pathname, filename, module, lineno = __file__, "logs.py", "logs", 0
     exc_info = exc_text = stack_info = None
 
-    def __init__(self, facts: dict[str, Any]) -> None:
-        self.facts = facts
+    def __init__(
+        self, request_id: str, method: str, route: str, status: int, seconds: float, sent_bytes: int
+    ) -> None:
         self.created = time.time()
+        self._strings = _quoted(request_id), _quoted_known(method), _quoted_again(route)
+        self._numbers = status, round(seconds * 1e3, 2), sent_bytes
+
+    def line(self) -> str:
+        """Return the line of JSON."""
+        request_id, method, route = self._strings
+        status, ms, sent_bytes = self._numbers
+        return (
+            f'{{"time": "{_time(self.created)}", "level": "info", "logger": "{self.name}", '
+            f'"event": "{self.msg}", "id": {request_id}, "method": {method}, "route": {route}, '
+            f'"status": {status}, "ms": {ms}, "bytes": {sent_bytes}}}'
+        )
+
+
+_quoted = json.encoder.encode_basestring_ascii
+_quoted_known = lru_cache(maxsize=256)(_quoted)
 
 
 def configure(level: str) -> None:
@@ -102,14 +128,5 @@ def log_request(
     request_id: str, method: str, route: str, status: int, seconds: float, sent_bytes: int
 ) -> None:
     """Log one request: the route's template, never the path itself."""
-    if not _LOGGER.isEnabledFor(logging.INFO):
-        return
-    facts = {
-        "id": request_id,
-        "method": method,
-        "route": route,
-        "status": status,
-        "ms": round(seconds * 1e3, 2),
-        "bytes": sent_bytes,
-    }
-    _LOGGER.handle(RequestRecord(facts))
+    if _LOGGER.isEnabledFor(logging.INFO):
+        _LOGGER.handle(RequestRecord(request_id, method, route, status, seconds, sent_bytes))
