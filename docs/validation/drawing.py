@@ -1,0 +1,48 @@
+"""How the pictures of the page look alike."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+FloatArray = NDArray[np.float64]
+
+INK, FAINT, GRID = "#22262b", "#6f7680", "#e3e6ea"
+WIDTH_INCH, DOTS_PER_INCH = 8.0, 200
+
+
+def figure(height_inch: float) -> "Figure":
+    """Return an empty white picture, 1600 pixels wide."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(WIDTH_INCH, height_inch), dpi=DOTS_PER_INCH, facecolor="white")
+
+
+def save(drawn: "Figure", path: Path) -> None:
+    """Write a picture as PNG, the same bytes for the same picture."""
+    drawn.savefig(path, metadata={"Software": None}, pil_kwargs={"optimize": True})
+
+
+def dress(axes: "Axes", title: str, x: str, y: str = "") -> None:
+    """Give axes a title, labels and two quiet spines."""
+    axes.set_title(title, loc="left", size=10.5, color=INK, weight="bold", pad=8)
+    axes.set_xlabel(x, color=INK, size=9)
+    axes.set_ylabel(y, color=INK, size=9)
+    axes.tick_params(colors=INK, labelsize=8.5)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_color(FAINT)
+
+
+def strip(axes: "Axes", pixels: FloatArray, first: float, last: float) -> None:
+    """Fill axes with colours that change from left to right, pixels of shape (N, 3)."""
+    axes.imshow(pixels[None], extent=(first, last, 0, 1), aspect="auto", interpolation="bilinear")
+    axes.set_yticks([])
+    for side in ("left", "right", "top"):
+        axes.spines[side].set_visible(False)
