@@ -3,6 +3,7 @@
 import sys
 
 from figures.page import write_block
+
 from validation.comparison import Comparison
 from validation.comparisons import comparisons
 from validation.drawing import save
@@ -24,7 +25,7 @@ def renew(comparison: Comparison[object]) -> None:
     """Measure, draw and write one comparison."""
     sys.stderr.write(f"{comparison.name} ...\n")
     measured = comparison.measure()
-    save(comparison.draw(measured), IMAGES / f"{comparison.name}.png")
+    save(comparison.draw(measured), IMAGES / f"{comparison.name}.png", comparison.palette)
     write_block(PAGE, comparison.name, comparison.numbers(measured).splitlines())
 
 

@@ -21,9 +21,11 @@ CHART = (
     ChartColour(180, "cyan"),
 )
 
+TITLE = "TiO₂ on titanium, D65, normal incidence"
+
 COMPARISON = Comparison(
     name="anodised-titanium",
-    measure=partial(named_chart.measure, "TiO₂ on titanium, D65, normal incidence", "anodised-titanium", CHART, 200),
+    measure=partial(named_chart.measure, TITLE, "anodised-titanium", CHART, 200),
     numbers=named_chart.numbers,
     draw=named_chart.draw,
 )

@@ -33,14 +33,9 @@ def colour_difference(first: FloatArray, second: FloatArray) -> FloatArray:
 def shown(rgb: FloatArray, white: float) -> FloatArray:
     """Return sRGB pixels of linear colours, 0 to 1, in a picture where a reflectance of `white` is white.
 
-    What the screen cannot show is mixed with the grey of its luminance until it can: hue and luminance stay.
+    Components below 0, which no screen has, are 0.
     """
-    exposed = rgb / white
-    grey = np.clip(exposed @ LUMINANCE, 0, 1)[..., None]
-    away = exposed - grey
-    with np.errstate(divide="ignore", invalid="ignore"):
-        room = np.where(away > 0, (1 - grey) / away, np.where(away < 0, -grey / away, np.inf))
-    return encoded(grey + np.minimum(room.min(axis=-1, keepdims=True), 1) * away)
+    return encoded(rgb / white)
 
 
 def encoded(linear: FloatArray) -> FloatArray:

@@ -24,9 +24,12 @@ class Comparison(Generic[Measured]):
         Says it in Markdown.
     draw : callable
         Draws it.
+    palette : int, optional
+        Colours that its file has; without it, all, as strips of smooth colours need.
     """
 
     name: str
     measure: Callable[[], Measured]
     numbers: Callable[[Measured], str]
     draw: Callable[[Measured], "Figure"]
+    palette: int | None = None

@@ -1,5 +1,6 @@
 """How the pictures of the page look alike."""
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,9 +24,17 @@ def figure(height_inch: float) -> "Figure":
     return Figure(figsize=(WIDTH_INCH, height_inch), dpi=DOTS_PER_INCH, facecolor="white")
 
 
-def save(drawn: "Figure", path: Path) -> None:
-    """Write a picture as PNG, the same bytes for the same picture."""
-    drawn.savefig(path, metadata={"Software": None}, pil_kwargs={"optimize": True})
+def save(drawn: "Figure", path: Path, palette: int | None = None) -> None:
+    """Write a picture as PNG, of so many colours at most."""
+    from PIL import Image
+
+    pixels = BytesIO()
+    drawn.savefig(pixels, format="png")
+    with Image.open(pixels) as picture:
+        colours = picture.convert("RGB")
+    if palette is not None:
+        colours = colours.quantize(palette, dither=Image.Dither.NONE)
+    colours.save(path, optimize=True)
 
 
 def dress(axes: "Axes", title: str, x: str, y: str = "") -> None:

@@ -33,7 +33,7 @@ def colours_over_angle(stack: Mapping[str, Any], angles_deg: ArrayLike) -> Float
 
 def spectra(name: str, scales: list[float], wavelength_nm: FloatArray) -> FloatArray:
     """Return R of unpolarised light at normal incidence of a preset: (scales, wavelengths)."""
-    first, last, count = wavelength_nm[0], wavelength_nm[-1], wavelength_nm.size
+    first, last, count = float(wavelength_nm[0]), float(wavelength_nm[-1]), wavelength_nm.size
     overrides = [
         f"table.wavelength_nm={{start={first!r}, stop={last!r}, count={count}}}",
         f"table.thickness_scale={scales}",

@@ -88,20 +88,22 @@ def of_pymoosh(stack: RandomStack) -> FloatArray:
 
     media = list(range(len(stack.index)))
     structure = Structure([n**2 for n in stack.index], media, [0.0, *stack.thickness_nm, 0.0], verbose=False)
-    s, p = (coefficient_S(structure, WAVELENGTH_NM, np.arccos(stack.cos_theta), number)[2:] for number in (0, 1))
+    s, p = (
+        coefficient_S(structure, WAVELENGTH_NM, np.arccos(stack.cos_theta), number)[2:] for number in (0, 1)
+    )
     return np.array([s[0], p[0], s[1], p[1]], float)
 
 
 def measure() -> list[Witness]:
     """Compare with every witness."""
-    absorbing, clear = random_stacks(most_k=4.0), random_stacks(most_k=0.0)
+    absorbing, tinted, clear = (random_stacks(most_k) for most_k in (4.0, 0.1, 0.0))
     programs = f"{STACKS} random stacks of 1 to 8 layers"
     return [
         _of_60_digits(),
         _witness("tmm", programs, lambda precision: _apart(absorbing, of_tmm, precision)),
         _witness("PyMoosh", programs, lambda precision: _apart(absorbing, of_pymoosh, precision)),
         _witness("R + T = 1", f"{STACKS} clear stacks", lambda precision: _lost(clear, precision)),
-        _witness("T backwards", programs, lambda precision: _one_way(absorbing, precision)),
+        _witness("T backwards", f"{STACKS} tinted stacks", lambda precision: _one_way(tinted, precision)),
     ]
 
 
@@ -112,7 +114,8 @@ def _witness(name: str, work: str, differences: Callable[[Precision], FloatArray
 def _of_60_digits() -> Witness:
     device, cases = open_device(), list(goldens())
     kinds = len({case.kind for case in cases})
-    work = f"{len(cases)} stacks of {kinds} kinds, up to {max(c.problem.index.shape[0] - 2 for c in cases)} layers"
+    most = max(case.problem.thickness_nm.size for case in cases)
+    work = f"{len(cases)} stacks of {kinds} kinds, up to {most} layers"
     return _witness("60 digits", work, lambda precision: golden_errors(device, cases, precision).ravel())
 
 
@@ -173,4 +176,4 @@ def _dress(axes: "Axes") -> None:
     dress(axes, "", "absolute difference of R or T", "share of differences at least as large")
 
 
-COMPARISON = Comparison("film-solver", measure, numbers, draw)
+COMPARISON = Comparison("film-solver", measure, numbers, draw, palette=128)

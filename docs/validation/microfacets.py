@@ -2,8 +2,8 @@
 
 Both compute f_r = D G F / (4 cos_i cos_o) with the separable Smith masking of B. Walter et al., Microfacet
 Models for Refraction through Rough Surfaces, EGSR 2007; Mitsuba in single precision, from the index that it
-is given. Its masking of the Beckmann distribution is Walter's rational approximation of Smith's function, ours
-is the function itself: these two may differ by what the approximation is wrong by.
+is given. Its masking of the Beckmann distribution is Walter's rational approximation of Smith's function,
+ours is the function itself: these two differ by what the approximation is wrong by.
 """
 
 from dataclasses import dataclass
@@ -35,7 +35,10 @@ WAVELENGTH_NM = np.array([430.0, 520.0, 610.0, 700.0])
 SURFACES = (("ggx", 0.1), ("ggx", 0.4), ("beckmann", 0.1), ("beckmann", 0.4))
 INCIDENCE_DEG = 45.0
 PLANE_DEG = np.linspace(-89, 89, 357)
-SPECULAR_NM = 520.0
+LEAST_F = 1e-6
+"""f_r in 1 / sr below which values are not compared: a lobe's maximum is 1e7 times as large."""
+IN_PLANE_NM = np.array([520.0, 530.0])
+"""The lobes are drawn at the first; a spectrum of Mitsuba has two samples or more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +64,7 @@ class Lobe:
     def name(self) -> str:
         """Return how the page calls the surface."""
         shown = {"ggx": "GGX", "beckmann": "Beckmann"}[self.distribution]
-        return f"{shown}, α = {self.alpha:g}"
+        return f"{shown}, alpha = {self.alpha:g}"
 
 
 def measure() -> list[Lobe]:
@@ -77,11 +80,17 @@ def measure() -> list[Lobe]:
 
 def _lobe(distribution: str, alpha: float) -> Lobe:
     i, o = random_pairs()
-    ours, theirs = (both(distribution, alpha, i, o, WAVELENGTH_NM)[k] for k in (0, 1))
+    ours, theirs = both(distribution, alpha, i, o, WAVELENGTH_NM)
     in_plane = [_in_plane(-INCIDENCE_DEG * np.ones_like(PLANE_DEG)), _in_plane(PLANE_DEG)]
-    lobe = both(distribution, alpha, *in_plane, np.array([SPECULAR_NM]))
+    lobe = both(distribution, alpha, *in_plane, IN_PLANE_NM)
     our_lobe, their_lobe = (f[:, 0] * in_plane[1][:, 2] for f in lobe)
-    return Lobe(distribution, alpha, our_lobe, their_lobe, np.abs(ours / theirs - 1).ravel())
+    return Lobe(distribution, alpha, our_lobe, their_lobe, relative_difference(ours, theirs))
+
+
+def relative_difference(ours: FloatArray, theirs: FloatArray) -> FloatArray:
+    """Return it where there is light to speak of, (samples,); a Beckmann lobe falls below any number."""
+    lit = theirs >= LEAST_F
+    return np.abs(ours[lit] / theirs[lit] - 1)
 
 
 def random_pairs() -> tuple[FloatArray, FloatArray]:
@@ -126,7 +135,10 @@ def numbers(lobes: list[Lobe]) -> str:
         f"{lobe.differences.max():.0e}"
         for lobe in lobes
     ]
-    intro = f"Relative differences of f_r at {PAIRS:,} random pairs of directions and {WAVELENGTH_NM.size} wavelengths."
+    intro = (
+        f"Relative differences of f_r at {PAIRS:,} random pairs of directions and {WAVELENGTH_NM.size} "
+        f"wavelengths, where f_r is {LEAST_F:.0e} / sr or more."
+    )
     return f"{intro}\n\n{table(header, rows)}"
 
 
@@ -141,13 +153,14 @@ def draw(lobes: list[Lobe]) -> "Figure":
         above.plot(PLANE_DEG, lobe.ours, color=colour, lw=1.8, label=lobe.name)
         few = slice(3, None, 10)
         above.scatter(PLANE_DEG[few], lobe.mitsuba[few], s=11, color=INK, linewidths=0, zorder=3)
-        below.plot(PLANE_DEG, np.maximum(np.abs(lobe.ours / lobe.mitsuba - 1), 1e-8), color=colour, lw=1.3)
+        lit = lobe.mitsuba >= LEAST_F
+        below.plot(PLANE_DEG[lit], relative_difference(lobe.ours, lobe.mitsuba), color=colour, lw=1.3)
     _dress(above, below)
     return drawn
 
 
 def _dress(above: "Axes", below: "Axes") -> None:
-    title = f"Silver lit at {INCIDENCE_DEG:.0f}°, {SPECULAR_NM:.0f} nm: Nacreous as lines, Mitsuba as dots"
+    title = f"Silver lit at {INCIDENCE_DEG:.0f}°, {IN_PLANE_NM[0]:.0f} nm: Nacreous as lines, Mitsuba as dots"
     dress(above, title, "", "f_r cos θ_o, 1 / sr")
     dress(below, "", "angle of outgoing light in the plane of incidence, degrees", "relative difference")
     for axes in (above, below):
@@ -161,4 +174,4 @@ def _dress(above: "Axes", below: "Axes") -> None:
     above.legend(frameon=False, fontsize=9, loc="upper left", labelcolor=INK)
 
 
-COMPARISON = Comparison("microfacets", measure, numbers, draw)
+COMPARISON = Comparison("microfacets", measure, numbers, draw, palette=128)

@@ -8,13 +8,14 @@ Ridge and gap are equally thick, d. Each reflects in phase with the next where o
 (n + 1) d = wavelength / 2: Bragg's condition, which knows nothing of the kernels' recursion.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from figures.hue import lab
 from numpy.typing import NDArray
 
-from figures.hue import lab
 from validation.appearance import screen, shown
 from validation.comparison import Comparison
 from validation.drawing import FAINT, INK, dress, figure
@@ -41,7 +42,7 @@ class Wings:
     """Spectra at normal incidence, R of shape (wings, L), and that of ridges of finite width, (L,)."""
 
     R: FloatArray
-    ridges_R: FloatArray  # noqa: N815 - R is the symbol
+    ridges_R: FloatArray
 
     @property
     def peak_nm(self) -> FloatArray:
@@ -62,7 +63,7 @@ def bragg_nm(ridge_nm: float) -> float:
 def measure() -> Wings:
     """Compute the spectra of the paper's four wings."""
     wings = spectra("paper/figure-8", [ridge / PRESET_NM for ridge in RIDGES_NM], WAVELENGTH_NM)
-    return Wings(wings, spectra(RIDGE_PRESET, [RIDGE_SCALE], WAVELENGTH_NM)[0])
+    return Wings(wings, spectra(RIDGE_PRESET, [1.0, RIDGE_SCALE], WAVELENGTH_NM)[-1])
 
 
 def numbers(wings: Wings) -> str:
@@ -70,15 +71,24 @@ def numbers(wings: Wings) -> str:
     rows = [
         f"{ridge:.0f} | {peak:.0f} | {bragg_nm(ridge):.0f} | {100 * (peak / bragg_nm(ridge) - 1):+.1f} | "
         f"{most:.2f} | {lab(rgb).word}"
-        for ridge, peak, most, rgb in zip(RIDGES_NM, wings.peak_nm, wings.R.max(axis=1), wings.rgb, strict=True)
+        for ridge, peak, most, rgb in zip(
+            RIDGES_NM, wings.peak_nm, wings.R.max(axis=1), wings.rgb, strict=True
+        )
     ]
-    header = "ridge, nm: | peak, nm: | 2 (n + 1) d, nm: | apart, %: | R at the peak: | colour at normal incidence"
+    header = (
+        "ridge, nm: | peak, nm: | 2 (n + 1) d, nm: | apart, %: | R at the peak: | colour at normal incidence"
+    )
     ridges = (
-        f"The preset `{RIDGE_PRESET}` at scale {RIDGE_SCALE}, whose ridges are as wide as the paper draws them and "
-        f"uneven by 5 nm, has its peak at {WAVELENGTH_NM[wings.ridges_R.argmax()]:.0f} nm with "
-        f"R = {wings.ridges_R.max():.2f}."
+        f"The preset `{RIDGE_PRESET}` at scale {RIDGE_SCALE:g}, whose ridges are as wide as the paper draws "
+        f"them and uneven by 5 nm, has its peak at {WAVELENGTH_NM[wings.ridges_R.argmax()]:.0f} nm, with "
+        f"R = {wings.ridges_R.max():.2f} there."
     )
     return f"{table(header, rows)}\n\n{ridges}"
+
+
+def _each(wings: Wings) -> Iterator[tuple[float, float, float, FloatArray]]:
+    """Yield ridge, peak, R there, and colour."""
+    return zip(RIDGES_NM, wings.peak_nm, wings.R.max(axis=1), wings.rgb, strict=True)
 
 
 def draw(wings: Wings) -> "Figure":
@@ -112,4 +122,4 @@ def _dress(axes: "Axes", wings: Wings) -> None:
     axes.set_ylim(0, 0.9)
 
 
-COMPARISON = Comparison("morpho-wings", measure, numbers, draw)
+COMPARISON = Comparison("morpho-wings", measure, numbers, draw, palette=128)

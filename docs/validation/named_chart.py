@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from figures.hue import HUES
 from numpy.typing import NDArray
 
-from figures.hue import HUES
 from validation.appearance import lightness_chroma_hue, shown
 from validation.drawing import FAINT, INK, dress, figure, strip
 from validation.film_colours import colours_over_thickness
@@ -28,6 +28,7 @@ FARTHEST_NM = 60.0
 """Farther away, a colour is that of another order."""
 COLOURLESS = 12.0
 """C* below which a metal is called silver or metallic."""
+MISSED = "#c23b22"
 DARK = 50.0
 """L* below which a colour is called dark."""
 
@@ -43,8 +44,14 @@ WORDS = {
     "purple": ("violet", "purple"),
     "red-violet": ("purple", "magenta"),
     "pink": ("magenta", "red"),
+    "red": ("magenta", "red"),
+    "scarlet": ("magenta", "red"),
+    "bluish red": ("magenta",),
+    "bluish green": ("cyan",),
+    "greenish blue": ("cyan",),
+    "indigo": ("blue", "violet"),
 }
-"""What the nouns of the charts may be, in the words of figures/hue.py."""
+"""What the names of the charts may be, in the words of figures/hue.py, by name or by its noun."""
 
 
 @dataclass(frozen=True)
@@ -55,17 +62,16 @@ class ChartColour:
     name: str
 
     @property
-    def noun(self) -> str:
-        """Return the part of the name that says the hue."""
-        return self.name.split()[-1]
+    def words(self) -> tuple[str, ...]:
+        """Return the words that the colour may have; none if it is colourless."""
+        return WORDS.get(self.name) or WORDS.get(self.name.split()[-1], ())
 
     def holds(self, look: FloatArray) -> NDArray[np.bool_]:
         """Say which of some lightnesses, chromas and hues, (N, 3), may be called so."""
         lightness, chroma, hue_deg = look.T
         dark = lightness < DARK if self.name.startswith("dark") else np.full(len(look), fill_value=True)
-        if self.noun not in WORDS:
-            return dark & (chroma < COLOURLESS)
-        return dark & np.isin(words_of(hue_deg), WORDS[self.noun])
+        hue_fits = np.isin(words_of(hue_deg), self.words) if self.words else chroma < COLOURLESS
+        return dark & hue_fits
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,16 +136,18 @@ def numbers(chart: NamedChart) -> str:
         f"{(offsets == 0).sum()} hold at the very thickness of the chart, and the mean of all offsets is "
         f"{np.nanmean(np.abs(offsets)):.0f} nm."
     )
-    header = "chart, nm: | name in the chart | hue words it may be | computed there | h_ab, °: | C*: | offset, nm:"
+    header = (
+        "chart, nm: | name in the chart | hue words it may be | computed there | h_ab, °: | C*: | offset, nm:"
+    )
     return f"{summary}\n\n{table(header, [_row(chart, each) for each in chart.colours])}"
 
 
 def _row(chart: NamedChart, colour: ChartColour) -> str:
     _, chroma, hue = chart.look[int(np.abs(chart.thickness_nm - colour.thickness_nm).argmin())]
     word = "grey" if chroma < COLOURLESS else str(words_of(np.array([hue]))[0])
-    may_be = " or ".join(WORDS.get(colour.noun, (f"C* below {COLOURLESS:.0f}",)))
+    may_be = " or ".join(colour.words or (f"C* below {COLOURLESS:.0f}",))
     offset = chart.offset_nm(colour)
-    away = f"{offset:+.0f}" if offset else "0"
+    away = "none near" if np.isnan(offset) else f"{offset:+.0f}" if offset else "0"
     cells = (f"{colour.thickness_nm:.0f}", colour.name, may_be, word, f"{hue:.0f}", f"{chroma:.0f}", away)
     return " | ".join(cells)
 
@@ -149,12 +157,12 @@ def _row(chart: NamedChart, colour: ChartColour) -> str:
 
 def draw(chart: NamedChart) -> "Figure":
     """Draw the colours over thickness, with the chart's names where it has them, and their hues."""
-    drawn = figure(4.3)
-    swatches = drawn.add_axes((0.075, 0.53, 0.9, 0.18))
-    hues = drawn.add_axes((0.075, 0.13, 0.9, 0.33))
+    drawn = figure(4.1)
+    swatches = drawn.add_axes((0.075, 0.54, 0.845, 0.2))
+    hues = drawn.add_axes((0.075, 0.125, 0.845, 0.36))
     _draw_strip(swatches, chart)
     _draw_hues(hues, chart)
-    drawn.suptitle(chart.title, x=0.02, y=0.965, ha="left", size=11, weight="bold", color=INK)
+    drawn.suptitle(chart.title, x=0.02, y=0.975, ha="left", size=11, weight="bold", color=INK)
     return drawn
 
 
@@ -177,11 +185,11 @@ def _draw_hues(axes: "Axes", chart: NamedChart) -> None:
     axes.hlines(bounds, *chart.thickness_nm[[0, -1]], color="#e3e6ea", lw=0.7, zorder=0)
     for (bound, word), end in zip(HUES, [*bounds[1:], 371], strict=True):
         middle = (bound + end) / 2 if word != "magenta" else 347
-        axes.text(chart.thickness_nm[-1] * 1.004, middle, word, size=6.8, color=FAINT, va="center")
+        axes.text(chart.thickness_nm[-1] * 1.008, middle, word, size=6.8, color=FAINT, va="center")
     axes.scatter(chart.thickness_nm, look[:, 2], c=pixels, s=9, linewidths=0)
     for colour, kept in zip(chart.colours, chart.kept, strict=True):
         at = int(colour.thickness_nm - chart.thickness_nm[0])
-        style = {"facecolors": [pixels[at]], "edgecolors": INK if kept else "#c23b22"}
+        style = {"facecolors": [pixels[at]], "edgecolors": INK if kept else MISSED, "clip_on": False}
         axes.scatter([colour.thickness_nm], [look[at, 2]], s=46, linewidths=1.1, zorder=3, **style)
     axes.set_xlim(*chart.thickness_nm[[0, -1]])
     axes.set_ylim(0, 360)

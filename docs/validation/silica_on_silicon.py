@@ -28,9 +28,11 @@ CHART = (
     ChartColour(600, "pink"),
 )
 
+TITLE = "SiO₂ on silicon, D65, normal incidence"
+
 COMPARISON = Comparison(
     name="silica-on-silicon",
-    measure=partial(named_chart.measure, "SiO₂ on silicon, D65, normal incidence", "silica-on-silicon", CHART, 700),
+    measure=partial(named_chart.measure, TITLE, "silica-on-silicon", CHART, 700),
     numbers=named_chart.numbers,
     draw=named_chart.draw,
 )
