@@ -15,6 +15,8 @@ FloatArray = NDArray[np.float64]
 
 INK, FAINT, GRID = "#22262b", "#6f7680", "#e3e6ea"
 WIDTH_INCH, DOTS_PER_INCH = 8.0, 200
+COLUMNS = 1600
+"""Of a strip: more than it has pixels, so that no step is seen."""
 
 
 def figure(height_inch: float) -> "Figure":
@@ -49,9 +51,12 @@ def dress(axes: "Axes", title: str, x: str, y: str = "") -> None:
         axes.spines[side].set_color(FAINT)
 
 
-def strip(axes: "Axes", pixels: FloatArray, first: float, last: float) -> None:
-    """Fill axes with colours that change from left to right, pixels of shape (N, 3)."""
-    axes.imshow(pixels[None], extent=(first, last, 0, 1), aspect="auto", interpolation="bilinear")
+def strip(axes: "Axes", rows: FloatArray, first: float, last: float) -> None:
+    """Fill axes with rows of colours that change from left to right: pixels (rows, N, 3), the upper first."""
+    columns = np.linspace(0, rows.shape[1] - 1, COLUMNS)
+    known = np.arange(rows.shape[1])
+    fine = np.apply_along_axis(lambda channel: np.interp(columns, known, channel), 1, rows)
+    axes.imshow(fine, extent=(first, last, 0, 1), aspect="auto", interpolation="nearest")
     axes.set_yticks([])
     for side in ("left", "right", "top"):
         axes.spines[side].set_visible(False)

@@ -18,7 +18,7 @@ from nacreous.opencl.precision import Precision
 from nacreous.tables.self_test import golden_errors, goldens
 from validation.comparison import Comparison
 from validation.drawing import GRID, INK, dress, figure
-from validation.page import table
+from validation.page import rounded, table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -143,7 +143,7 @@ def numbers(witnesses: list[Witness]) -> str:
 
 def _row(witness: Witness) -> str:
     double, single = (witness.differences[precision] for precision in (Precision.DOUBLE, Precision.SINGLE))
-    cells = (f"{value:.0e}" for value in (double.max(), single.max(), np.median(single)))
+    cells = map(rounded, (double.max(), single.max(), np.median(single)))
     return " | ".join([witness.name, witness.work, *cells])
 
 
@@ -152,8 +152,8 @@ COLOURS = ("#22262b", "#2f6fb4", "#c2571a", "#3a8f4d", "#8a4fa3")
 
 def draw(witnesses: list[Witness]) -> "Figure":
     """Draw which share of all differences is larger than which."""
-    drawn = figure(3.7)
-    axes = drawn.add_axes((0.08, 0.15, 0.72, 0.72))
+    drawn = figure(3.5)
+    axes = drawn.add_axes((0.08, 0.15, 0.73, 0.76))
     for witness, colour in zip(witnesses, COLOURS, strict=True):
         for precision, style in ((Precision.DOUBLE, "-"), (Precision.SINGLE, (0, (3, 1.5)))):
             ordered = np.sort(np.maximum(witness.differences[precision], LEAST_SHOWN))
@@ -167,7 +167,7 @@ def draw(witnesses: list[Witness]) -> "Figure":
 def _dress(axes: "Axes") -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlim(LEAST_SHOWN, 1e-3)
+    axes.set_xlim(LEAST_SHOWN, 1e-4)
     axes.set_ylim(7e-4, 1.25)
     axes.grid(color=GRID, lw=0.7)
     axes.text(3e-15, 1.3, "double precision", size=9, color=INK, ha="center")

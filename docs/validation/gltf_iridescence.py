@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 
 STATED_DEG = (0, 45, 70)
-ANGLES_DEG = np.arange(0.0, 86.0)
+ANGLES_DEG = np.arange(0.0, 76.0)
+"""In steps of one degree; beyond them every film turns white."""
 ALIKE = 5.0
 """CIEDE2000 below which two colours side by side are told apart only when looked for."""
 
@@ -117,37 +118,48 @@ def _cells(film: Compared) -> list[str]:
     return [f"{apart:.1f}" for apart in both]
 
 
+# ---- as a picture ------------------------------------------------------------------------------------------
+
+
 def draw(films: list[Compared]) -> "Figure":
     """Draw a pair of strips for each film, exact above formula, over the angle."""
-    drawn = figure(0.62 * len(films) + 0.85)
+    drawn = figure(0.58 * len(films) + 1.05)
+    inch = 1 / drawn.get_figheight()
     grid = drawn.subplots(len(films), 1, sharex=True)
+    drawn.subplots_adjust(left=0.3, right=0.82, top=1 - 0.62 * inch, bottom=0.5 * inch, hspace=0.22)
+    drawn.suptitle("Exact film above, glTF's formula below", **_TITLE)
     for axes, each in zip(grid, films, strict=True):
         _draw_pair(axes, each)
-    inch = 1 / drawn.get_figheight()
-    drawn.subplots_adjust(left=0.3, right=0.84, top=1 - 0.42 * inch, bottom=0.52 * inch, hspace=0.2)
-    grid[-1].set_xticks([0, 15, 30, 45, 60, 75, 85])
+    _draw_row(grid[0], 1.3, [f"{angle}°" for angle in STATED_DEG], FAINT)
+    drawn.text(0.98, 0.985, "CIEDE2000 at", size=8.5, color=FAINT, ha="right", va="top")
+    grid[-1].tick_params(colors=INK, labelsize=8.5)
+    grid[-1].set_xticks(range(0, 76, 15))
     grid[-1].set_xlabel("angle of incidence, degrees", color=INK, size=9)
-    grid[0].text(*_TITLE_PLACE, "Exact film above, glTF formula below", transform=grid[0].transAxes, **_TITLE)
-    grid[0].text(1.02, 1.25, "ΔE₀₀ at 0°, 45°, 70°", transform=grid[0].transAxes, size=8, color=FAINT)
     return drawn
 
 
-_TITLE_PLACE = (-0.6, 1.25)
-_TITLE = {"size": 10.5, "weight": "bold", "color": INK}
+_TITLE: dict[str, Any] = {"x": 0.02, "y": 0.985, "ha": "left", "size": 11, "weight": "bold", "color": INK}
 
 
 def _draw_pair(axes: "Axes", each: Compared) -> None:
     white = float(max(each.exact.max(), each.formula.max()))
-    both = np.stack([shown(each.exact, white), shown(each.formula, white)])
-    strip(axes, both[0], 0, 85)
-    axes.images[0].set_data(both)
-    axes.images[0].set_interpolation("nearest")
+    strip(axes, np.stack([shown(each.exact, white), shown(each.formula, white)]), *ANGLES_DEG[[0, -1]])
     axes.axhline(0.5, color="white", lw=0.8)
-    style: dict[str, Any] = {"transform": axes.transAxes, "size": 8.5, "color": INK, "va": "center"}
-    axes.text(-0.02, 0.5, each.film.label, ha="right", **style)
-    apart = each.apart(each.formula)
-    axes.text(1.02, 0.5, "   ".join(f"{value:.1f}" for value in apart), **style)
-    axes.tick_params(colors=INK, labelsize=8.5, bottom=False)
+    axes.spines["bottom"].set_visible(False)
+    axes.tick_params(bottom=False)
+    axes.text(-0.02, 0.5, each.film.label, ha="right", va="center", transform=axes.transAxes, **_LABEL)
+    _draw_row(axes, 0.5, [f"{value:.1f}" for value in each.apart(each.formula)], INK)
+
+
+_LABEL: dict[str, Any] = {"size": 8.5, "color": INK}
+
+
+def _draw_row(axes: "Axes", height: float, cells: list[str], colour: str) -> None:
+    """Write a line of the table on the right of the strips."""
+    for place, cell in zip((1.1, 1.21, 1.32), cells, strict=True):
+        axes.text(
+            place, height, cell, size=8.5, color=colour, ha="right", va="center", transform=axes.transAxes
+        )
 
 
 COMPARISON = Comparison("gltf-iridescence", measure, numbers, draw)

@@ -21,7 +21,7 @@ from nacreous.tables.spec import Spec
 from reference_surface import cosine_direction
 from validation.comparison import Comparison
 from validation.drawing import FAINT, GRID, INK, dress, figure
-from validation.page import table
+from validation.page import rounded, table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -130,16 +130,16 @@ def _in_plane(theta_deg: FloatArray) -> FloatArray:
 def numbers(lobes: list[Lobe]) -> str:
     """Say how far apart both are."""
     header = "surface | median difference: | 99 of 100 within: | largest:"
-    rows = [
-        f"{lobe.name} | {np.median(lobe.differences):.0e} | {np.quantile(lobe.differences, 0.99):.0e} | "
-        f"{lobe.differences.max():.0e}"
-        for lobe in lobes
-    ]
+    rows = [" | ".join([lobe.name, *_figures(lobe.differences)]) for lobe in lobes]
     intro = (
         f"Relative differences of f_r at {PAIRS:,} random pairs of directions and {WAVELENGTH_NM.size} "
-        f"wavelengths, where f_r is {LEAST_F:.0e} / sr or more."
+        f"wavelengths, where f_r is {rounded(LEAST_F)} / sr or more."
     )
     return f"{intro}\n\n{table(header, rows)}"
+
+
+def _figures(differences: FloatArray) -> list[str]:
+    return [rounded(value) for value in (*np.quantile(differences, (0.5, 0.99)), differences.max())]
 
 
 COLOURS = ("#2f6fb4", "#8db4dc", "#c2571a", "#e5ab83")
@@ -147,7 +147,7 @@ COLOURS = ("#2f6fb4", "#8db4dc", "#c2571a", "#e5ab83")
 
 def draw(lobes: list[Lobe]) -> "Figure":
     """Draw the lobes, ours as lines and Mitsuba's as dots, and how far apart they are."""
-    drawn = figure(5.0)
+    drawn = figure(4.8)
     above, below = drawn.add_axes((0.08, 0.42, 0.9, 0.5)), drawn.add_axes((0.08, 0.1, 0.9, 0.24))
     for lobe, colour in zip(lobes, COLOURS, strict=True):
         above.plot(PLANE_DEG, lobe.ours, color=colour, lw=1.8, label=lobe.name)
@@ -161,7 +161,7 @@ def draw(lobes: list[Lobe]) -> "Figure":
 
 def _dress(above: "Axes", below: "Axes") -> None:
     title = f"Silver lit at {INCIDENCE_DEG:.0f}°, {IN_PLANE_NM[0]:.0f} nm: Nacreous as lines, Mitsuba as dots"
-    dress(above, title, "", "f_r cos θ_o, 1 / sr")
+    dress(above, title, "", r"$f_r \cos\theta_o$, 1 / sr")
     dress(below, "", "angle of outgoing light in the plane of incidence, degrees", "relative difference")
     for axes in (above, below):
         axes.set_yscale("log")

@@ -10,7 +10,7 @@ Ridge and gap are equally thick, d. Each reflects in phase with the next where o
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from figures.hue import lab
@@ -99,27 +99,28 @@ def draw(wings: Wings) -> "Figure":
     for ridge, R, peak, pixel in zip(RIDGES_NM, wings.R, wings.peak_nm, pixels, strict=True):
         axes.fill_between(WAVELENGTH_NM, R, color=pixel, alpha=0.25, lw=0)
         axes.plot(WAVELENGTH_NM, R, color=pixel, lw=2.2)
-        axes.text(peak, R.max() + 0.012, f"{ridge:.0f} nm\n{peak:.0f} nm, {R.max():.2f}", **_LABEL)
+        axes.text(peak, MEASURED_R + 0.012, f"d = {ridge:.0f} nm: {peak:.0f} nm", va="bottom", **_LABEL)
         axes.plot([bragg_nm(ridge)] * 2, [0, 0.025], color=INK, lw=1.1)
     axes.plot(WAVELENGTH_NM, wings.ridges_R, color=FAINT, lw=1.2, ls=(0, (4, 2)))
     _dress(axes, wings)
     return drawn
 
 
-_LABEL = {"size": 8.5, "color": INK, "ha": "center", "va": "bottom", "linespacing": 1.25}
+_LABEL: dict[str, Any] = {"size": 8.5, "color": INK, "ha": "center"}
+_RIGHT = {**_LABEL, "ha": "right"}
 
 
 def _dress(axes: "Axes", wings: Wings) -> None:
-    dress(axes, "Four Morpho wings at normal incidence", "wavelength, nm", "reflectance R")
+    dress(axes, "Four wings of figure 8 at normal incidence", "wavelength, nm", "reflectance R")
     axes.axhline(MEASURED_R, color=INK, lw=0.9, ls=(0, (1, 2)))
-    axes.text(798, MEASURED_R + 0.012, "up to 0.75 measured in the blue", size=8.5, color=INK, ha="right")
-    at = int(wings.ridges_R.argmax()) + 28
-    axes.annotate(
-        f"{RIDGE_PRESET}, scale {RIDGE_SCALE}", (WAVELENGTH_NM[at], wings.ridges_R[at]), (0, 0),
-        textcoords="offset points", size=7.5, color=FAINT,
+    axes.text(798, MEASURED_R - 0.012, "up to 0.75 measured in the blue", va="top", **_RIGHT)
+    peak = int(wings.ridges_R.argmax())
+    axes.text(
+        *(WAVELENGTH_NM[peak], wings.ridges_R[peak] - 0.02, f"{RIDGE_PRESET},\nscale {RIDGE_SCALE:g}"),
+        va="top", bbox={"color": "white", "alpha": 0.75, "pad": 1.5, "lw": 0}, **_LABEL,
     )  # fmt: skip
     axes.set_xlim(350, 800)
-    axes.set_ylim(0, 0.9)
+    axes.set_ylim(0, 0.82)
 
 
 COMPARISON = Comparison("morpho-wings", measure, numbers, draw, palette=128)

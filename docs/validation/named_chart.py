@@ -157,9 +157,9 @@ def _row(chart: NamedChart, colour: ChartColour) -> str:
 
 def draw(chart: NamedChart) -> "Figure":
     """Draw the colours over thickness, with the chart's names where it has them, and their hues."""
-    drawn = figure(4.1)
-    swatches = drawn.add_axes((0.075, 0.54, 0.845, 0.2))
-    hues = drawn.add_axes((0.075, 0.125, 0.845, 0.36))
+    drawn = figure(4.0)
+    swatches = drawn.add_axes((0.075, 0.565, 0.845, 0.2))
+    hues = drawn.add_axes((0.075, 0.13, 0.845, 0.38))
     _draw_strip(swatches, chart)
     _draw_hues(hues, chart)
     drawn.suptitle(chart.title, x=0.02, y=0.975, ha="left", size=11, weight="bold", color=INK)
@@ -168,13 +168,13 @@ def draw(chart: NamedChart) -> "Figure":
 
 def _draw_strip(axes: "Axes", chart: NamedChart) -> None:
     first, last = chart.thickness_nm[[0, -1]]
-    strip(axes, shown(chart.rgb, float(chart.rgb.max())), first, last)
+    strip(axes, shown(chart.rgb, float(chart.rgb.max()))[None], first, last)
     axes.set_xticks([])
     axes.spines["bottom"].set_visible(False)
     for colour, kept in zip(chart.colours, chart.kept, strict=True):
         axes.plot([colour.thickness_nm] * 2, [1, 1.1], color=INK, lw=0.9, clip_on=False)
         axes.text(
-            *(colour.thickness_nm, 1.16), colour.name, rotation=38, size=8.5, color=INK,
+            *(colour.thickness_nm, 1.16), colour.name, rotation=42, size=8.5, color=INK,
             ha="left", va="bottom", rotation_mode="anchor", style="normal" if kept else "italic",
         )  # fmt: skip
 
@@ -194,4 +194,4 @@ def _draw_hues(axes: "Axes", chart: NamedChart) -> None:
     axes.set_xlim(*chart.thickness_nm[[0, -1]])
     axes.set_ylim(0, 360)
     axes.set_yticks([0, 90, 180, 270, 360])
-    dress(axes, "", "thickness of the film, nm", "CIELAB hue h_ab, degrees")
+    dress(axes, "", "thickness of the film, nm", r"CIELAB hue $h_{ab}$, degrees")

@@ -179,8 +179,8 @@ def _missed(chart: NamedChart) -> str:
 
 def draw(series: NewtonSeries) -> "Figure":
     """Draw the colours over thickness and path, with the orders, Newton's names, and the luminance."""
-    drawn = figure(4.5)
-    colours = drawn.add_axes((0.075, 0.46, 0.9, 0.29))
+    drawn = figure(4.4)
+    colours = drawn.add_axes((0.075, 0.46, 0.9, 0.31))
     luminance = drawn.add_axes((0.075, 0.125, 0.9, 0.2))
     _draw_colours(colours, series)
     _draw_luminance(luminance, series)
@@ -193,7 +193,7 @@ _TITLE = {"size": 11, "weight": "bold", "color": INK}
 
 def _draw_colours(axes: "Axes", series: NewtonSeries) -> None:
     first, last = series.thickness_nm[[0, -1]]
-    strip(axes, shown(series.rgb, float(series.rgb.max())), first, last)
+    strip(axes, shown(series.rgb, float(series.rgb.max()))[None], first, last)
     chart = series.newtons_chart
     for colour, kept in zip(chart.colours, chart.kept, strict=True):
         axes.plot([colour.thickness_nm] * 2, [1, 1.07], color=INK, lw=0.8, clip_on=False)
@@ -224,7 +224,7 @@ def _draw_luminance(axes: "Axes", series: NewtonSeries) -> None:
     axes.set_xlim(*series.path_nm[[0, -1]])
     axes.set_ylim(0, 1.05)
     axes.set_yticks([0, 1])
-    dress(axes, "", "path difference 2 n d, nm", "luminance")
+    dress(axes, "", r"path difference $2nd$, nm", "luminance")
 
 
 COMPARISON = Comparison("newton-series", measure, numbers, draw)

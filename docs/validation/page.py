@@ -21,3 +21,9 @@ def table(header: str, rows: list[str]) -> str:
     rule = "|".join("--:" if title.endswith(":") else "---" for title in titles)
     shown = " | ".join(title.removesuffix(":") for title in titles)
     return "\n".join([f"| {shown} |", f"|{rule}|", *(f"| {row} |" for row in rows)])
+
+
+def rounded(value: float) -> str:
+    """Return one digit and a power of ten, such as 3e-7."""
+    digit, exponent = f"{value:.0e}".split("e")
+    return f"{digit}e{int(exponent)}"
