@@ -99,10 +99,10 @@ def draw(wings: Wings) -> "Figure":
     for ridge, R, peak, pixel in zip(RIDGES_NM, wings.R, wings.peak_nm, pixels, strict=True):
         axes.fill_between(WAVELENGTH_NM, R, color=pixel, alpha=0.25, lw=0)
         axes.plot(WAVELENGTH_NM, R, color=pixel, lw=2.2)
-        axes.text(peak, MEASURED_R + 0.012, f"d = {ridge:.0f} nm: {peak:.0f} nm", va="bottom", **_LABEL)
+        axes.text(peak, MEASURED_R + 0.012, f"{ridge:.0f} nm: {peak:.0f} nm", va="bottom", **_LABEL)
         axes.plot([bragg_nm(ridge)] * 2, [0, 0.025], color=INK, lw=1.1)
     axes.plot(WAVELENGTH_NM, wings.ridges_R, color=FAINT, lw=1.2, ls=(0, (4, 2)))
-    _dress(axes, wings)
+    _dress(axes)
     return drawn
 
 
@@ -110,15 +110,11 @@ _LABEL: dict[str, Any] = {"size": 8.5, "color": INK, "ha": "center"}
 _RIGHT = {**_LABEL, "ha": "right"}
 
 
-def _dress(axes: "Axes", wings: Wings) -> None:
+def _dress(axes: "Axes") -> None:
     dress(axes, "Four wings of figure 8 at normal incidence", "wavelength, nm", "reflectance R")
     axes.axhline(MEASURED_R, color=INK, lw=0.9, ls=(0, (1, 2)))
-    axes.text(798, MEASURED_R - 0.012, "up to 0.75 measured in the blue", va="top", **_RIGHT)
-    peak = int(wings.ridges_R.argmax())
-    axes.text(
-        *(WAVELENGTH_NM[peak], wings.ridges_R[peak] - 0.02, f"{RIDGE_PRESET},\nscale {RIDGE_SCALE:g}"),
-        va="top", bbox={"color": "white", "alpha": 0.75, "pad": 1.5, "lw": 0}, **_LABEL,
-    )  # fmt: skip
+    axes.text(798, MEASURED_R + 0.012, "measured: up to 0.75", va="bottom", **_RIGHT)
+    axes.text(416, 0.31, f"{RIDGE_PRESET},\nscale {RIDGE_SCALE:g}", va="center", **_RIGHT)
     axes.set_xlim(350, 800)
     axes.set_ylim(0, 0.82)
 
