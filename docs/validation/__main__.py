@@ -3,7 +3,6 @@
 import sys
 
 from figures.page import write_block
-
 from validation.comparison import Comparison
 from validation.comparisons import comparisons
 from validation.drawing import save

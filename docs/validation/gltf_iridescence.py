@@ -3,7 +3,7 @@
 The formula is that of the Khronos extension, after L. Belcour and P. Barla, A Practical Extension to
 Microfacet Theory for the Modeling of Varying Iridescence, ACM Trans. Graph. 36(4) (2017). Colours under D65
 are compared by CIEDE2000, once with the film's own index and thickness, as a reader of the extension would
-write them, and once with the parameters that `nacreous` fits for `.glb` files.
+write them, and once with the parameters that Nacreous fits for `.gltf` files.
 """
 
 from collections.abc import Mapping

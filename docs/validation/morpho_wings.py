@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from figures.hue import lab
 from numpy.typing import NDArray
 
+from figures.hue import lab
 from validation.appearance import screen, shown
 from validation.comparison import Comparison
 from validation.drawing import FAINT, INK, dress, figure

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from figures.hue import HUES
 from numpy.typing import NDArray
 
+from figures.hue import HUES
 from validation.appearance import lightness_chroma_hue, shown
 from validation.drawing import FAINT, INK, dress, figure, strip
 from validation.film_colours import colours_over_thickness

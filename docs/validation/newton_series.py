@@ -166,12 +166,9 @@ def _row(series: NewtonSeries, order: int, known_nm: float, path_nm: float) -> s
 
 
 def _missed(chart: NamedChart) -> str:
-    missed = [
-        f"{line.name} of order {line.order}"
-        for line, kept in zip(NEWTON, chart.kept, strict=True)
-        if not kept
-    ]
-    return f"Not there: {', '.join(missed)}." if missed else ""
+    lines = zip(NEWTON, chart.kept, chart.offsets_nm, strict=True)
+    missed = [f"{line.name} of order {line.order} ({away:+.0f} nm)" for line, kept, away in lines if not kept]
+    return f"Farther off: {', '.join(missed)}." if missed else ""
 
 
 # ---- as a picture ------------------------------------------------------------------------------------------

@@ -5,7 +5,6 @@ from functools import cache
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from validation.named_chart import TOLERANCE_NM, ChartColour, NamedChart
 
 from nacreous.optics.material import Material
 from nacreous.optics.refractive_index import refractive_index
@@ -13,6 +12,7 @@ from nacreous.tables.presets import preset
 from reference import film
 from reference_colour import WAVELENGTH_NM, linear_rgb
 from validation import anodised_titanium, silica_on_silicon
+from validation.named_chart import TOLERANCE_NM, ChartColour, NamedChart
 
 FloatArray = NDArray[np.float64]
 

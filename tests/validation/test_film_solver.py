@@ -1,17 +1,20 @@
 """What the page says of the film solver, and that its witnesses are witnesses."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
-from validation.film_solver import Witness, measure, of_pymoosh, of_tmm, random_stacks
 
 from kernel_film import DOUBLE_TOLERANCE, SINGLE_TOLERANCE
 from nacreous.opencl.precision import Precision
+from validation.film_solver import Witness, of_pymoosh, of_tmm, random_stacks
 
 
 @pytest.fixture(scope="module")
-def witnesses() -> dict[str, Witness]:
+def witnesses(measured: Callable[[str], Any]) -> dict[str, Witness]:
     """Compare with all of them."""
-    return {witness.name: witness for witness in measure()}
+    return {witness.name: witness for witness in measured("film-solver")}
 
 
 @pytest.mark.parametrize("name", ["60 digits", "tmm", "PyMoosh", "R + T = 1", "T backwards"])

@@ -1,9 +1,11 @@
 """The distances between glTF's formula and the film, from the reference film and colour-science."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from validation.gltf_iridescence import FILMS, STATED_DEG, CoatedBase, Compared, measure
 
 from iridescence_host import three_reflectance
 from nacreous.optics.iridescence import Iridescence
@@ -13,6 +15,7 @@ from nacreous.tables.fit.gltf import naive_film
 from nacreous.tables.spec import Spec
 from reference import film
 from reference_colour import WAVELENGTH_NM, linear_rgb
+from validation.gltf_iridescence import FILMS, STATED_DEG, CoatedBase, Compared
 
 FloatArray = NDArray[np.float64]
 
@@ -20,9 +23,9 @@ COSINES = np.cos(np.radians(STATED_DEG))
 
 
 @pytest.fixture(scope="module")
-def compared() -> list[Compared]:
+def compared(measured: Callable[[str], Any]) -> list[Compared]:
     """Compute the comparison."""
-    return measure()
+    return measured("gltf-iridescence")
 
 
 def stack_of(each: CoatedBase) -> Stack:

@@ -5,11 +5,11 @@ from functools import cache
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+
+from reference_colour import WAVELENGTH_NM, linear_rgb
 from validation.appearance import LUMINANCE, lightness_chroma_hue
 from validation.named_chart import ChartColour
 from validation.newton_series import NEWTON, TINTS_NM, measure
-
-from reference_colour import WAVELENGTH_NM, linear_rgb
 
 FloatArray = NDArray[np.float64]
 
