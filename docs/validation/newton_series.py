@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from nacreous.optics.refractive_index import refractive_index
 from nacreous.tables.presets import preset
+from validation import named_chart
 from validation.appearance import LUMINANCE, lightness_chroma_hue, shown
 from validation.comparison import Comparison
 from validation.drawing import FAINT, INK, dress, figure, strip
