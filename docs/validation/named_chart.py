@@ -129,8 +129,12 @@ def measure(title: str, preset: str, colours: tuple[ChartColour, ...], most_nm: 
 
 
 def headline(chart: NamedChart) -> str:
-    """Say how many names hold."""
-    return f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm"
+    """Say how many names hold, and how far off those are at most."""
+    farthest = np.abs(chart.offsets_nm[chart.kept]).max()
+    return (
+        f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm, the farthest of "
+        f"them {farthest:.0f} nm off"
+    )
 
 
 def numbers(chart: NamedChart) -> str:
