@@ -142,7 +142,7 @@ def numbers(chart: NamedChart) -> str:
     offsets = chart.offsets_nm
     summary = (
         f"**{headline(chart)}**; "
-        f"{(offsets == 0).sum()} hold at the very thickness of the chart, and the mean of all offsets is "
+        f"{(offsets == 0).sum()} hold at the very thickness of the chart, and the offsets found have a mean of "
         f"{np.nanmean(np.abs(offsets)):.0f} nm."
     )
     header = (
