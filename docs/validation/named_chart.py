@@ -142,8 +142,8 @@ def numbers(chart: NamedChart) -> str:
     offsets = chart.offsets_nm
     summary = (
         f"**{headline(chart)}**; "
-        f"{(offsets == 0).sum()} hold at the very thickness of the chart, and the offsets found have a mean of "
-        f"{np.nanmean(np.abs(offsets)):.0f} nm."
+        f"{(offsets == 0).sum()} hold at the very thickness of the chart, and the offsets found "
+        f"have a mean of {np.nanmean(np.abs(offsets)):.0f} nm."
     )
     header = (
         "chart, nm: | name in the chart | hue words it may be | computed there | h_ab, °: | C*: | offset, nm:"
