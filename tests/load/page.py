@@ -13,7 +13,7 @@ from web_page import chromium
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, ElementHandle, Page
 
-VIEWS, MOVES, RESTS = 10, 60, 20
+VIEWS, MOVES, RESTS = 10, 60, 40
 SCREEN = {"width": 1280, "height": 900}
 
 NOTE_READY = """
@@ -89,9 +89,10 @@ def print_slider(browser: "Browser", url: str) -> None:
 
 
 def rested_moves_ms(page: "Page", slider: "ElementHandle") -> Iterator[float]:
-    """Yield the times of moves that begin once the fine film is drawn."""
+    """Yield the times of moves that begin once the fine film is drawn and every plot has its table."""
     for _ in range(RESTS):
         page.wait_for_function(RESTED)
+        page.wait_for_load_state("networkidle")
         yield move_ms(slider)
 
 
