@@ -6,7 +6,7 @@ markers. Names of presets as arguments make the pictures of those alone.
 The spheres of films are those of make_images.py: mirrors under a sky and two lamps, one reading of the lookup
 texture a pixel. Those of rough surfaces are lit by a white sky of the same brightness all around, in which a
 surface sends as much light to the eye as it would reflect of light that comes from there: one reading of the
-albedo a pixel, the roughness growing from top to bottom.
+albedo a pixel, the film growing thicker from top to bottom as well.
 """
 
 import sys
@@ -31,7 +31,9 @@ from make_images import (
 )
 from PIL import Image
 
+from nacreous.tables.axes import thickness_scale_values
 from nacreous.tables.presets import preset, preset_names
+from nacreous.tables.spec import roughness_values
 
 PAGE = Path(__file__).parent / "gallery.md"
 FOLDER = Path(__file__).parent / "images" / "gallery"
@@ -46,8 +48,8 @@ POSES = {sphere.preset: sphere for sphere in SPHERES} | {
     "paper/figure-8": Sphere("paper/figure-8", 0.0, 1.0, 0.8),
 }
 """How the spheres of films are shown: thickness at the top and at the bottom, and exposure."""
-ROUGH_STOPS = 1.6
-"""Exposure of the spheres of rough surfaces, which reflect a seventh of the light."""
+BRIGHTEST, ROUGHNESS, ROWS = 0.7, 0.1, 64
+"""Of rough spheres: the brightest channel head on, the roughness where a preset has several, thicknesses."""
 
 
 def main(chosen: Iterable[str] = ()) -> None:
@@ -70,16 +72,27 @@ def draw(name: str, folder: Path) -> None:
 def portrait(name: str, folder: Path) -> FloatArray:
     """Return the sphere of a preset, linear, (CELL, CELL, 3)."""
     if preset(name).surface is not None:
-        return evenly_lit(texture(folder, name, "--set", "table.thickness_scale=1"))
+        return evenly_lit(rough_texture(folder, name))
     return drawn(POSES[name], texture(folder, name))
 
 
+def rough_texture(folder: Path, name: str) -> FloatArray:
+    """Return the albedo at the surface's own roughness, from the preset's thinnest film to its thickest."""
+    spec = preset(name)
+    scales = thickness_scale_values(spec.table.thickness_scale)
+    axis = f"{{start = {scales[0]}, stop = {scales[-1]}, count = {ROWS}}}" if scales.size > 1 else "1"
+    roughness = roughness_values(spec)[0] if spec.table.roughness is None else ROUGHNESS
+    options = (f"table.thickness_scale={axis}", f"table.roughness=[{roughness}]")
+    atlas = texture(folder, name, *(word for option in options for word in ("--set", option)))
+    return atlas.reshape(-1, 2, *atlas.shape[1:])[:, 0] if scales.size > 1 else atlas
+
+
 def evenly_lit(albedo: FloatArray) -> FloatArray:
-    """Return a rough sphere in a white furnace: its albedo towards the eye, rougher towards the bottom."""
+    """Return a rough sphere in a white furnace: its albedo towards the eye, thicker towards the bottom."""
     x, y = places()
     cos_theta = np.sqrt(np.maximum(1 - x**2 - y**2, 0))
     seen = read(albedo, cos_theta, np.clip((y + 1) / 2, 0, 1))
-    return cut_out(2.0**ROUGH_STOPS * np.maximum(seen, 0))
+    return cut_out(BRIGHTEST / albedo[:, -1].max() * np.maximum(seen, 0))
 
 
 def renewed(page: str) -> str:
