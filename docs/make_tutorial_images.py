@@ -23,7 +23,7 @@ from visited_page import visited
 from web_page import chromium
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Locator, Page
 
 IMAGES = Path(__file__).parent / "images" / "tutorials"
 WRITTEN = {
@@ -33,7 +33,7 @@ WRITTEN = {
 }
 """The picture that a tutorial's commands write, what it is called here, and its width."""
 VIEWPORT = {"width": 1240, "height": 780}
-THICKNESS_NM = "45"
+THICKNESS_NM, MARGIN = "45", 20
 
 
 def main(chosen: Iterable[str] = ()) -> None:
@@ -76,16 +76,12 @@ def photograph(url: str) -> None:
     with opened(url) as page:
         page.get_by_role("radio", name="Studio").check(force=True)
         keep(page, "artist-preset.jpg")
-        field = page.get_by_label("Thickness of layer 1", exact=True)
-        field.fill(THICKNESS_NM)
-        field.press("Enter")
+        set_thickness(page)
         keep(page, "artist-blue.jpg")
         page.get_by_role("button", name="Make the files").click()
-        page.get_by_role("radio", name="MaterialX").check(force=True)
+        page.get_by_role("radio", name="Blender").check(force=True)
         page.get_by_role("button", name="Download").first.wait_for()
-        region = page.get_by_role("region", name="Take it away")
-        region.scroll_into_view_if_needed()
-        save(region.screenshot(), "artist-files.jpg")
+        save(framed(page, page.get_by_role("region", name="Take it away")), "artist-files.jpg")
 
 
 @contextmanager
@@ -95,6 +91,25 @@ def opened(url: str) -> "Iterator[Page]":
     with chromium() as browser, visited(browser, address, viewport=VIEWPORT) as page:
         page.set_default_timeout(SECONDS * 1000)
         yield page
+
+
+def set_thickness(page: "Page") -> None:
+    """Type a thickness, and wait until the film of it is on the shape."""
+    drawn = page.locator("canvas[data-drawn]")
+    before = drawn.get_attribute("data-table")
+    field = page.get_by_label("Thickness of layer 1", exact=True)
+    field.fill(THICKNESS_NM)
+    field.press("Enter")
+    page.locator(f'canvas[data-drawn]:not([data-table="{before}"])').wait_for(state="attached")
+
+
+def framed(page: "Page", region: "Locator") -> bytes:
+    """Return a photograph of a region with some room around it."""
+    region.scroll_into_view_if_needed()
+    box = region.bounding_box() or {"x": 0, "y": 0, **VIEWPORT}
+    x, y = max(box["x"] - MARGIN, 0), max(box["y"] - MARGIN, 0)
+    size = {"width": box["width"] + 2 * MARGIN, "height": box["height"] + 2 * MARGIN}
+    return page.screenshot(clip={"x": x, "y": y, **size}, full_page=False)
 
 
 def keep(page: "Page", name: str) -> None:
