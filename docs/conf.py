@@ -30,7 +30,7 @@ myst_heading_anchors = 4
 # Braces and dollars are data in most of the pages: `{ n = 1.5 }`, and prices nowhere.
 myst_dmath_double_inline = True
 myst_dmath_allow_digits = False
-# Both packages have a SpecError; docstrings of the first name it alone, and the first that is found is its own.
+# Both packages have a SpecError. Docstrings name it without its package; the one found first is meant.
 suppress_warnings = ["ref.python"]
 
 # ---- Python ------------------------------------------------------------------------------------------------
@@ -47,6 +47,7 @@ nitpick_ignore_regex = [("py:.*", r"(?!nacreous).*")]
 
 html_theme = "pydata_sphinx_theme"
 html_math_renderer = "mathml"
+html_favicon = html_logo = "../service/page/src/icon.svg"
 html_static_path = ["_static"]
 html_css_files = ["nacreous.css"]
 html_copy_source = False

@@ -39,6 +39,7 @@ class ReferenceDirective(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Return the parts, with everything that has an id known as a target of links."""
+        self.env.note_reread()  # the code may have changed where the page has not
         parts = list(self.parts())
         for part in parts:
             for node in part.findall(nodes.Element):
@@ -128,7 +129,7 @@ def facts(named: Mapping[str, Inline]) -> list[nodes.Element]:
         for name, fact in named.items()
         if fact
     ]
-    return [nodes.field_list("", *fields)] if fields else []
+    return [nodes.field_list("", *fields, classes=["nacreous-facts"])] if fields else []
 
 
 def bullets(items: Iterable[Inline]) -> list[nodes.Element]:

@@ -102,7 +102,8 @@ def _form_words(schema: Schema, link: Link) -> Inline:
 
 def _enumeration(values: list[Any]) -> Inline:
     parts: list[Inline] = [[literal(json.dumps(value, ensure_ascii=False))] for value in values]
-    return [node for part in _joined(parts, ", ") for node in part]
+    beginning = [nodes.Text("one of ")] if len(values) > 1 else []
+    return [*beginning, *(node for part in _joined(parts, ", ") for node in part)]
 
 
 def _array_words(schema: Schema, link: Link) -> Inline:

@@ -1,7 +1,6 @@
 """The reference of the spec: each model and field of its JSON Schema, from the outside inwards."""
 
 from collections.abc import Iterable, Iterator
-from typing import Any
 
 from docutils import nodes
 
@@ -12,7 +11,7 @@ from nacreous_site.json_schema import Schema, field_entries, references
 __all__ = ["SpecReference", "spec_link", "spec_models"]
 
 _TITLES = {
-    "Spec": "The spec",
+    "Spec": "The outermost fields",
     "Stack": "`[stack]`",
     "Layer": "A layer",
     "Group": "A group of layers",
@@ -41,18 +40,13 @@ class SpecReference(ReferenceDirective):
 
 
 def spec_models() -> dict[str, Schema]:
-    """Return the schema of each model of a spec: its own, then those that it mentions, in their order."""
+    """Return the schema of each model of a spec: its own, and then those that it mentions."""
     schema = json_schema()
-    found: dict[str, Schema] = {"Spec": {name: part for name, part in schema.items() if name != "$defs"}}
-    _collect(found["Spec"], schema["$defs"], found)
-    return found
-
-
-def _collect(schema: object, models: dict[str, Any], found: dict[str, Schema]) -> None:
-    for name in references(schema):
-        if name not in found:
-            found[name] = models[name]
-            _collect(models[name], models, found)
+    models = {**schema["$defs"], "Spec": {name: part for name, part in schema.items() if name != "$defs"}}
+    names = ["Spec"]
+    for name in names:  # it grows meanwhile: what is mentioned first comes first
+        names.extend(found for found in dict.fromkeys(references(models[name])) if found not in names)
+    return {name: models[name] for name in names}
 
 
 def spec_link(model: str) -> nodes.Element:
