@@ -20,6 +20,7 @@ __all__ = [
     "facts",
     "identifier",
     "link",
+    "listed",
     "literal",
     "paragraphs",
     "section",
@@ -113,13 +114,19 @@ def section(ident: str, title: str | Inline, *children: nodes.Node) -> nodes.sec
 def entry(ident: str, name: str, *body: nodes.Node, note: str = "") -> addnodes.desc:
     """Return the entry of one thing that has a name; `note` stands beside it."""
     signature = addnodes.desc_signature("", "", addnodes.desc_name(name, name), names=[ident])
-    signature["_toc_name"] = ""
     if note:
         signature += addnodes.desc_annotation("", "", nodes.Text(f"  {note}"))
     content = addnodes.desc_content("", *body)
     return addnodes.desc(
         "", signature, content, domain="nacreous", objtype="entry", classes=["nacreous-entry"]
     )
+
+
+def listed(ident: str, name: str, *body: nodes.Node) -> addnodes.desc:
+    """Return an entry that the page's table of contents lists."""
+    described = entry(ident, name, *body)
+    described[0].attributes |= {"_toc_name": name, "_toc_parts": (name,)}
+    return described
 
 
 def facts(named: Mapping[str, Inline]) -> list[nodes.Element]:

@@ -15,7 +15,6 @@ from nacreous_site.entries import (
     facts,
     identifier,
     literal,
-    paragraphs,
     section,
     words,
 )
@@ -35,13 +34,9 @@ class FormatReference(ReferenceDirective):
 
 
 def _format_section(each: Format) -> nodes.section:
-    return section(
-        identifier("format", each.name),
-        [literal(each.name)],
-        *paragraphs(f"{each.name.advice[0].upper()}{each.name.advice[1:]}."),
-        *facts(_facts(each)),
-        *manual(_docstring(each)),
-    )
+    about, *more = manual(_docstring(each))
+    ident = identifier("format", each.name)
+    return section(ident, [literal(each.name)], about, *facts(_facts(each)), *more)
 
 
 def _docstring(each: Format) -> str:
@@ -50,6 +45,7 @@ def _docstring(each: Format) -> str:
 
 def _facts(each: Format) -> dict[str, Inline]:
     return {
+        "For": words(each.name.advice),
         "File": [literal(f"film{each.suffix}")],
         "Quantities": _listed(sorted(each.quantities)),
         "Holds": words(_content(each)),

@@ -37,7 +37,7 @@ def _material_entry(name: str, material: LibraryMaterial) -> nodes.Element:
         *paragraphs(material.note),
         *facts(
             {
-                "Range": words(f"{first:g} to {last:g} nm"),
+                "Range": words(f"{first:,.10g} to {last:,.10g} nm"),
                 "Index": _index(material),
                 "Source": words(material.citation),
             }

@@ -35,5 +35,13 @@ def _preset_section(name: str) -> nodes.section:
         [nodes.Text(f"{spec.name} "), literal(name)],
         *paragraphs(spec.description),
         *about,
-        code_block(preset_text(name), "toml"),
+        code_block(_without_prose(preset_text(name)), "toml"),
     )
+
+
+def _without_prose(text: str) -> str:
+    """Return a spec without the labels that stand above it."""
+    return "\n".join(line for line in text.splitlines() if not line.startswith(_PROSE))
+
+
+_PROSE = ("description = ", "source = ")

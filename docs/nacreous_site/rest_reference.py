@@ -19,6 +19,7 @@ from nacreous_site.entries import (
     facts,
     identifier,
     link,
+    listed,
     literal,
     paragraphs,
     section,
@@ -73,7 +74,7 @@ def _route_sections(document: Mapping[str, Any]) -> Iterator[nodes.Element]:
 
 def _route_entry(operation: Operation) -> nodes.Element:
     method, path, described = operation
-    return entry(
+    return listed(
         identifier("rest", method, path),
         f"{method} {path}",
         *paragraphs(described.get("description", "")),
