@@ -89,13 +89,11 @@ def _labelled(label: str, parts: list[nodes.Element]) -> list[nodes.Element]:
 
 
 def _parameter(parameter: Mapping[str, Any]) -> Inline:
-    where = f" ({parameter['in']}): "
-    described = parameter.get("description", "")
+    described = parameter["description"].removesuffix(".")
     default = parameter["schema"].get("default")
     return [
         literal(parameter["name"]),
-        nodes.Text(where),
-        *words(f"{described} " if described else ""),
+        *words(f" ({parameter['in']}): {described} – "),
         *type_words(parameter["schema"], _model_link),
         *words(f"; `{default}` without it" if default is not None else ""),
     ]

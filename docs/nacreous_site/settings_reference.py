@@ -17,8 +17,8 @@ class SettingsReference(ReferenceDirective):
 
     def parts(self) -> Iterable[nodes.Element]:
         """Return both sections."""
-        everywhere = section("settings-everywhere", "Of every command", *_elsewhere())
-        return [everywhere, section("settings-service", "Of the service", *_settings())]
+        service = section("settings-service", "Of the service", *_settings())
+        return [service, section("settings-program", "Of the program and its tests", *_elsewhere())]
 
 
 def _settings() -> Iterator[nodes.Element]:
