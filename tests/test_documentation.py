@@ -125,7 +125,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 def test_the_blocks_of_a_page_run_in_order(
     page: Path, tmp_path: Path, request: pytest.FixtureRequest
 ) -> None:
-    """A reader may type what a page shows, from its top to its bottom, in one folder beside the client's files."""
+    """A reader may type what a page shows, from its top to its bottom, in one folder with the client."""
     if page.is_relative_to(ROOT / "clients"):
         shutil.copytree(page.parent, tmp_path, ignore=_NO_PART_OF_A_COPY, dirs_exist_ok=True)
     for block in runnable_blocks(page):

@@ -25,6 +25,7 @@ MEANINGS: Mapping[str, str] = MappingProxyType(
         "key": "The service wants a key, and got none that it knows.",
         "cors": "Pages of this origin may not ask, or not for this.",
         "busy": "The queue is full: ask again after `Retry-After`.",
+        "connections": "Too many connections are open, and this one is closed: come back later.",
         "concurrency": "Too many requests are being answered: ask again after `Retry-After`.",
         "unavailable": "No table can be computed at present: ask again after `Retry-After`.",
         "not-ready": "The service is not ready; `detail` says why.",
