@@ -132,7 +132,7 @@ def kangaroo(cell: float = 0.014) -> Mesh:
     counts = np.ceil((_HIGH - _LOW) / cell).astype(int) + 1
     grid = np.stack(np.meshgrid(*(np.arange(count) for count in counts), indexing="ij"), axis=-1)
     field = distance(_LOW + cell * grid)
-    corners, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent")
+    corners, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="descent")
     positions = _drawn_to_surface(_LOW + cell * corners.astype(np.float64))
     return _with_seam(positions, normalised(_gradient(positions)), faces.astype(np.int64))
 

@@ -81,7 +81,7 @@ def sheet(positions: FloatArray, normals: FloatArray, uvs: FloatArray) -> Mesh:
     flat = positions.reshape(-1, 3)
     first, second, third = (flat[faces[:, corner]] for corner in range(3))
     area = np.linalg.norm(np.cross(second - first, third - first), axis=1)
-    return Mesh(flat, normals.reshape(-1, 3), uvs.reshape(-1, 2), faces[area > 1e-12])
+    return Mesh(flat, normals.reshape(-1, 3), uvs.reshape(-1, 2), faces[area > _LEAST_AREA])
 
 
 def _seamed(grid: FloatArray) -> FloatArray:
@@ -93,6 +93,9 @@ def _unit_square(rows: int, columns: int) -> FloatArray:
     v, u = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1, columns), indexing="ij")
     return np.stack([u, v], axis=-1)
 
+
+_LEAST_AREA = 1e-11
+"""Twice the area below which a triangle is a point or a line, rounded."""
 
 _HEADER = """ply
 format binary_little_endian 1.0

@@ -24,7 +24,7 @@ class _Margin:
     breadth: float
 
 
-_MARGINS = {"fore": _Margin(0.20, 0.74, 0.125), "hind": _Margin(0.34, 0.86, 0.10)}
+_MARGINS = {"fore": _Margin(0.24, 0.76, 0.12), "hind": _Margin(0.27, 0.74, 0.10)}
 _SOFT = 0.03
 """Breadth over which the margin fades into the film."""
 _CELL_END = 0.44

@@ -82,10 +82,10 @@ def wing(name: str, side: Side, outwards: int = 48) -> Mesh:
     positions = np.concatenate([plan, (_height(plan) - form.lowered)[..., None]], axis=-1)
     uvs = plan / [EXTENT, 2 * EXTENT] + [0.0, 0.5]
     normals = _normals(plan)
-    if side == "right":  # the outline goes clockwise, seen from above
-        return sheet(positions, normals, uvs)
-    mirror = np.array([-1.0, 1.0, 1.0])
-    return sheet(*((values)[::-1] for values in (mirror * positions, mirror * normals, uvs)))
+    if side == "left":
+        mirror = np.array([-1.0, 1.0, 1.0])
+        return sheet(mirror * positions, mirror * normals, uvs)
+    return sheet(positions[::-1], normals[::-1], uvs[::-1])  # the outline goes clockwise, seen from above
 
 
 def _height(plan: FloatArray) -> FloatArray:
