@@ -20,6 +20,7 @@ FloatArray = NDArray[np.float64]
 CAMERA = Camera(origin=(0.0, -10.5, 2.9), target=(0.02, 0.0, 0.96), fov_deg=15.5, aspect=1.75)
 MIRROR_CENTRE = (-1.16, 0.35, 1.0)
 GLASS_CENTRE = (1.12, -0.25, 1.0)
+GLASS_RADIUS = 1.0
 LIGHTS = (
     SoftBox(180, 62, 150, 50, 1.6),
     SoftBox(262, 28, 38, 50, 2.6),
@@ -29,11 +30,12 @@ LIGHTS = (
 )
 ROD_COLOURS = ((0.85, 0.83, 0.78), (0.55, 0.16, 0.07), (0.85, 0.83, 0.78), (0.08, 0.10, 0.14))
 TABLE_SUFFIX = ".spectral.exr"
+TABLE_AXES = (MITSUBA_RANGE, "table.cos_theta=512")
 
 
 def film_file(tables: Tables, preset: str) -> Path:
     """Return R of a preset of the paper, with T beside it."""
-    spec = nacreous.preset(preset, (MITSUBA_RANGE, "table.cos_theta=512"))
+    spec = nacreous.preset(preset, TABLE_AXES)
     return tables.written(spec, TABLE_SUFFIX)
 
 
@@ -48,7 +50,7 @@ def spheres(glass: dict[str, Any]) -> dict[str, Any]:
     """Return the objects, with the BSDF of the sphere on the right."""
     return {
         "mirror": {"type": "sphere", "center": list(MIRROR_CENTRE), "bsdf": {"type": "conductor"}},
-        "glass": {"type": "sphere", "center": list(GLASS_CENTRE), "bsdf": glass},
+        "glass": {"type": "sphere", "center": list(GLASS_CENTRE), "radius": GLASS_RADIUS, "bsdf": glass},
         "floor": studio.chequered(dark=0.06, light=0.30, square=0.9),
     } | rods()
 

@@ -35,8 +35,8 @@ def maxima_of(table: xarray.Dataset) -> FloatArray:
 
 
 def normal_incidence(preset: str) -> xarray.Dataset:
-    """Compute R of a preset at normal incidence in steps of 1 nm."""
-    return table_at_angles(nacreous.preset(preset), np.array([0.0]), step_nm=1.0)
+    """Compute R of a preset in steps of 1 nm; the first angle is normal incidence."""
+    return table_at_angles(nacreous.preset(preset), np.array([0.0, 1.0]), step_nm=1.0)
 
 
 def maxima_lines(films: dict[str, tuple[str, float]], index: float) -> Iterator[str]:
