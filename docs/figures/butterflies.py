@@ -83,12 +83,12 @@ def _ply(folder: Path, name: str, to_world: object, bsdf: Scene) -> Scene:
 
 
 def _winged(name: str, film: Scene) -> Scene:
-    """Return the film where a wing has no pigment, from both sides."""
+    """Return the film where a wing has no pigment, from both sides; Mitsuba counts v from the first row."""
     import mitsuba as mi
 
     pigment = {
         "type": "bitmap",
-        "bitmap": mi.Bitmap(wing_pigment(name)[..., None].astype(np.float32)),
+        "bitmap": mi.Bitmap(wing_pigment(name)[::-1, :, None].astype(np.float32)),
         "raw": True,
         "wrap_mode": "clamp",
     }
@@ -152,7 +152,7 @@ def lamp(view: View) -> Scene:
     }
 
 
-def ground(reflectance: float = 0.16) -> Scene:
+def ground(reflectance: float = 0.45) -> Scene:
     """Return the grey that the insects lie on."""
     import mitsuba as mi
 

@@ -1,6 +1,7 @@
-"""Figure 6: brushed teapots of several roughnesses, with films of several thicknesses."""
+"""Figure 6: teapots brushed around their axis, with films of three thicknesses and two roughnesses."""
 
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from figures import studio
-from figures.brushed import Grid, brushed_spec, measured_file, panels
+from figures.brushed import Brushed, colour_lines, lobe_lines, measured_file, panels
 from figures.figure import Figure, Quality
 from figures.meshes.mesh import write_ply
 from figures.meshes.teapot import teapot
@@ -17,9 +18,12 @@ from figures.tables import Tables
 
 FloatArray = NDArray[np.float64]
 
-GRID = Grid("paper/figure-6", roughnesses=(0.1, 0.2), thicknesses_nm=(300.0, 400.0, 500.0))
-STOPS = 0.8
-CAMERA = Camera(origin=(0.5, -9.0, 4.0), target=(0.03, 0.0, 0.83), fov_deg=13.5, aspect=1.4)
+ROWS = tuple(
+    tuple(Brushed("paper/figure-6", thickness_nm, roughness) for thickness_nm in (300.0, 400.0, 500.0))
+    for roughness in (0.1, 0.2)
+)
+STOPS = 1.2
+CAMERA = Camera(origin=(0.5, -9.0, 4.0), target=(0.03, 0.0, 0.86), fov_deg=13.8, aspect=1.38)
 LIGHTS = (
     SoftBox(222, 46, 26, 34, 9.0, edge_deg=6),
     SoftBox(110, 34, 20, 50, 7.0, edge_deg=6),
@@ -30,20 +34,17 @@ LIGHTS = (
 def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
     """Render a teapot for each roughness and thickness."""
 
-    def rendered(thickness_nm: float, roughness: float) -> FloatArray:
-        return studio.rendered(scene(tables, thickness_nm, roughness, quality.height), quality.samples)
+    def rendered(surface: Brushed) -> FloatArray:
+        return studio.rendered(scene(tables, surface, quality.height), quality.samples)
 
-    return {"figure-6": panels(GRID, rendered, STOPS)}
+    return {"figure-6": panels(ROWS, rendered, STOPS)}
 
 
-def scene(tables: Tables, thickness_nm: float, roughness: float, height: int) -> Scene:
+def scene(tables: Tables, surface: Brushed, height: int) -> Scene:
     """Return one panel's scene."""
-    spec = brushed_spec(GRID.preset, thickness_nm, roughness)
-    file = measured_file(tables, spec, f"teapot-{thickness_nm:g}-{roughness:g}")
-    pot = {"type": "ply", "filename": str(teapot_file(tables.folder)), "bsdf": studio.measured(file)}
-    return studio.scene(
-        studio.room(LIGHTS), CAMERA, height, {"teapot": pot, "floor": studio.plain(0.08)}
-    )
+    bsdf = studio.measured(measured_file(tables, surface.spec))
+    pot = {"type": "ply", "filename": str(teapot_file(tables.folder)), "bsdf": bsdf}
+    return studio.scene(studio.room(LIGHTS), CAMERA, height, {"teapot": pot, "floor": studio.plain(0.06)})
 
 
 def teapot_file(folder: Path) -> Path:
@@ -52,16 +53,19 @@ def teapot_file(folder: Path) -> Path:
     return file if file.is_file() else write_ply(teapot(), file)
 
 
-def findings(_: Tables) -> Iterator[str]:
-    """Return what was measured."""
+def findings(tables: Tables) -> Iterator[str]:
+    """Return the colours of the films, and how wide the lobes are along the brush and across it."""
+    surfaces = tuple(chain.from_iterable(ROWS))
+    yield from colour_lines(surfaces)
     yield ""
+    yield from lobe_lines(tables, surfaces)
 
 
 FIGURE = Figure(
     number=6,
     caption="Interference renderings of teapots with the different surface roughnesses and thin film "
     "thicknesses.",
-    quality=Quality(height=360, samples=128),
+    quality=Quality(height=348, samples=160),
     render=render,
     findings=findings,
 )

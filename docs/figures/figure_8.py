@@ -11,6 +11,7 @@ import nacreous
 from figures import studio
 from figures.butterflies import View, row_scene
 from figures.figure import Figure, Quality
+from figures.gamut import whitened
 from figures.hue import Lab, lab
 from figures.pictures import exposed, labelled, stacked
 from figures.tables import MITSUBA_RANGE, Tables, colours, table_at_angles
@@ -24,9 +25,12 @@ THICKNESSES_NM = (80.0, 100.0, 120.0, 135.0)
 WORDS = ("violet", "blue", "yellow", "red")
 """The paper's, from left to right."""
 VIEW = View(light_deg=26.0, camera_deg=26.0)
-ALPHA = 0.28
+"""The stated geometry: the light 26 degrees from the vertical on one side, the view on the other."""
+OTHER_VIEWS = (View(8.0, 8.0), View(40.0, 40.0))
+"""Closer to normal incidence, where the thickest ridge is closest to red; and flatter, where 100 nm is blue."""
+ALPHA = 0.3
 """Of the wings' facets: assumed; hues do not depend on it."""
-STOPS = 0.6
+STOPS = -0.8
 ANGLES_DEG = np.arange(0.0, 76.0)
 
 
@@ -42,19 +46,26 @@ def film_colours(thickness_nm: float, theta_deg: FloatArray) -> FloatArray:
 
 def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
     """Render the four butterflies, and the chart of their colours over the angle under them."""
-    linear = rendering(tables, quality)
-    caption = (
-        "Ridges of 80, 100, 120 and 135 nm. "
-        f"Light and view 2 x {VIEW.facet_deg:g} degrees apart, so {VIEW.facet_deg:g} degrees at the facets."
-    )
-    chart = wing_chart(THICKNESSES_NM, ANGLES_DEG, film_colours, VIEW.facet_deg, linear.shape[1])
-    return {"figure-8": stacked([labelled(exposed(linear, STOPS), caption), chart])}
+    views = sorted((VIEW, *OTHER_VIEWS), key=lambda view: view.facet_deg)
+    rows = [labelled(_shown(rendering(tables, view, quality)), _caption(view)) for view in views]
+    marked = [view.facet_deg for view in views]
+    chart = wing_chart(THICKNESSES_NM, ANGLES_DEG, film_colours, marked, rows[0].width)
+    return {"figure-8": stacked([*rows, chart])}
 
 
-def rendering(tables: Tables, quality: Quality) -> FloatArray:
-    """Render the row, linear (H, W, 3)."""
+def _shown(linear: FloatArray) -> Image.Image:
+    return exposed(whitened(linear), STOPS)
+
+
+def _caption(view: View) -> str:
+    ridges = "Ridges of 80, 100, 120 and 135 nm"
+    return f"{ridges}; light and view {view.light_deg:g}° either side of the vertical, {view.facet_deg:g}° at facets"
+
+
+def rendering(tables: Tables, view: View, quality: Quality) -> FloatArray:
+    """Render the four in a row, linear (H, W, 3)."""
     films = [wing_film(tables, each) for each in THICKNESSES_NM]
-    return studio.rendered(row_scene(tables.folder, films, VIEW, quality.height), quality.samples)
+    return studio.rendered(row_scene(tables.folder, films, view, quality.height), quality.samples)
 
 
 def wing_film(tables: Tables, thickness_nm: float) -> studio.Scene:
@@ -90,7 +101,7 @@ FIGURE = Figure(
     number=8,
     caption="Rendered biological iridescences of Morpho butterflies consisting of tree-like ridge structures "
     "with cuticle films of different thicknesses (left to right: 80 nm, 100 nm, 120 nm and 135 nm).",
-    quality=Quality(height=300, samples=512),
+    quality=Quality(height=264, samples=128),
     render=render,
     findings=findings,
 )
