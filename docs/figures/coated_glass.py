@@ -12,23 +12,25 @@ from numpy.typing import NDArray
 import nacreous
 from figures import studio
 from figures.figure import Quality
-from figures.studio import Camera, SoftBox
+from figures.studio import Camera, SoftBox, Walls
 from figures.tables import MITSUBA_RANGE, Tables
 
 FloatArray = NDArray[np.float64]
 
-CAMERA = Camera(origin=(0.0, -10.5, 2.9), target=(0.02, 0.0, 0.96), fov_deg=15.5, aspect=1.75)
-MIRROR_CENTRE = (-1.16, 0.35, 1.0)
-GLASS_CENTRE = (1.12, -0.25, 1.0)
+CAMERA = Camera(origin=(0.0, -10.5, 2.5), target=(0.0, 0.0, 0.98), fov_deg=13.4, aspect=1.8)
+MIRROR_CENTRE = (-1.1, 0.45, 1.0)
+GLASS_CENTRE = (1.08, -0.2, 1.0)
 GLASS_RADIUS = 1.0
 LIGHTS = (
-    SoftBox(180, 62, 150, 50, 1.6),
-    SoftBox(262, 28, 38, 50, 2.6),
-    SoftBox(82, 30, 26, 56, 2.6),
-    SoftBox(180, 12, 44, 26, 1.2),
-    SoftBox(0, 40, 120, 14, 1.4),
+    SoftBox(214, 50, 52, 52, 2.6),
+    SoftBox(146, 50, 52, 52, 2.6),
+    SoftBox(270, 34, 40, 64, 2.6),
+    SoftBox(90, 34, 40, 64, 2.6),
+    SoftBox(180, 8, 60, 22, 1.8),
+    SoftBox(0, 52, 110, 26, 2.0),
 )
-ROD_COLOURS = ((0.85, 0.83, 0.78), (0.55, 0.16, 0.07), (0.85, 0.83, 0.78), (0.08, 0.10, 0.14))
+WALLS = Walls(below=(0.01, 0.01, 0.01), horizon=(0.05, 0.055, 0.065), zenith=(0.02, 0.02, 0.02))
+ROD_COLOURS = ((0.80, 0.74, 0.62), (0.50, 0.17, 0.07), (0.07, 0.16, 0.26))
 TABLE_SUFFIX = ".spectral.exr"
 TABLE_AXES = (MITSUBA_RANGE, "table.cos_theta=512")
 
@@ -41,7 +43,7 @@ def film_file(tables: Tables, preset: str) -> Path:
 
 def rendering(tables: Tables, preset: str, quality: Quality) -> FloatArray:
     """Render both spheres, linear (H, W, 3)."""
-    light = studio.room(LIGHTS)
+    light = studio.room(LIGHTS, WALLS)
     glass = studio.film(film_file(tables, preset))
     return studio.rendered(studio.scene(light, CAMERA, quality.height, spheres(glass)), quality.samples)
 
@@ -51,7 +53,7 @@ def spheres(glass: dict[str, Any]) -> dict[str, Any]:
     return {
         "mirror": {"type": "sphere", "center": list(MIRROR_CENTRE), "bsdf": {"type": "conductor"}},
         "glass": {"type": "sphere", "center": list(GLASS_CENTRE), "radius": GLASS_RADIUS, "bsdf": glass},
-        "floor": studio.chequered(dark=0.06, light=0.30, square=0.9),
+        "floor": studio.chequered(dark=0.025, light=0.14, square=1.6),
     } | rods()
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import nacreous
 from figures import studio
-from figures.coated_glass import CAMERA, GLASS_CENTRE, GLASS_RADIUS, LIGHTS, TABLE_AXES, TABLE_SUFFIX, spheres
+from figures.coated_glass import CAMERA, GLASS_CENTRE, GLASS_RADIUS, LIGHTS, TABLE_AXES, TABLE_SUFFIX, WALLS, spheres
 from figures.figure import Quality
 from figures.tables import Tables
 
@@ -65,7 +65,7 @@ def registered(film: ComparedFilm) -> str:
 
 def rendering(bsdf: dict[str, Any], quality: Quality) -> FloatArray:
     """Render the scene of figure 3 with a BSDF on the sphere on the right."""
-    scene = studio.scene(studio.room(LIGHTS), CAMERA, quality.height, spheres(bsdf))
+    scene = studio.scene(studio.room(LIGHTS, WALLS), CAMERA, quality.height, spheres(bsdf))
     return studio.rendered(scene, quality.samples)
 
 

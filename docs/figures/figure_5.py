@@ -50,7 +50,7 @@ def rendering(tables: Tables, thickness_nm: float, quality: Quality) -> FloatArr
     """Render both objects with one film, linear (H, W, 3)."""
     bsdf = studio.measured(tables.written(surface_spec(thickness_nm), ".bsdf"))
     objects = {
-        "sphere": {"type": "sphere", "center": [1.05, -0.9, 0.62], "radius": 0.62, "bsdf": bsdf},
+        "sphere": {"type": "sphere", "center": [0.98, -0.7, 0.56], "radius": 0.56, "bsdf": bsdf},
         "knot": torus_knot(bsdf),
         "floor": studio.plain(0.08),
     }

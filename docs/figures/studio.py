@@ -24,8 +24,8 @@ Scene = dict[str, Any]
 
 VARIANT = "llvm_ad_spectral"
 CLIENT = Path(__file__).parents[2] / "clients" / "mitsuba"
-PATHS_PER_PASS = 4_000_000
-"""Vectorised variants hold all paths of a rendering in memory: about a gigabyte for these."""
+PATHS_PER_STRIP = 2_000_000
+"""Vectorised variants hold all paths of a rendering in memory, and are fastest while these are few."""
 ROOM_HEIGHT, ROOM_WIDTH = 512, 1024
 MAX_DEPTH = 16
 
@@ -47,16 +47,27 @@ def use_mitsuba() -> None:
 def rendered(scene: Scene, samples: int) -> FloatArray:
     """Return linear Rec.709 (H, W, 3), white being a white surface's in the light of radiance 1.
 
-    The mean of several renderings, of one seed each: the same picture each time.
+    In strips of rows, each with one seed: the same picture each time. A strip has all samples of its pixels
+    at once, so that they can be stratified, wavelengths included.
     """
     import mitsuba as mi
 
     loaded = mi.load_dict(scene)
-    width, height = loaded.sensors()[0].film().size()
-    per_pass = max(1, min(samples, PATHS_PER_PASS // (width * height)))
-    passes = -(-samples // per_pass)
-    pictures = (np.array(mi.render(loaded, spp=per_pass, seed=seed), np.float64) for seed in range(passes))
-    return sum(pictures) / passes
+    width, height = (scene["sensor"]["film"][side] for side in ("width", "height"))
+    rows = max(1, PATHS_PER_STRIP // (width * samples))
+    strips = []
+    for top in range(0, height, rows):
+        sensor = mi.load_dict(_strip(scene["sensor"], top, min(rows, height - top), samples))
+        strips.append(np.array(mi.render(loaded, sensor=sensor, spp=samples, seed=top), np.float64))
+    return np.concatenate(strips)
+
+
+def _strip(sensor: Scene, top: int, rows: int, samples: int) -> Scene:
+    """Return a camera that sees some rows of its picture alone."""
+    width = sensor["film"]["width"]
+    crop = {"crop_offset_x": 0, "crop_offset_y": top, "crop_width": width, "crop_height": rows}
+    sampler = {"type": "multijitter", "sample_count": samples}
+    return {**sensor, "film": {**sensor["film"], **crop}, "sampler": sampler}
 
 
 # ---- light -------------------------------------------------------------------------------------------------
@@ -172,7 +183,7 @@ class Camera:
                 "width": round(height * self.aspect),
                 "height": height,
                 "pixel_format": "rgb",
-                "rfilter": {"type": "gaussian"},
+                "rfilter": {"type": "box"},  # others would need the rows of the next strip
             },
         }
 
