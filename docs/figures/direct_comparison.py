@@ -12,7 +12,16 @@ from numpy.typing import NDArray
 
 import nacreous
 from figures import studio
-from figures.coated_glass import CAMERA, GLASS_CENTRE, GLASS_RADIUS, LIGHTS, TABLE_AXES, TABLE_SUFFIX, WALLS, spheres
+from figures.coated_glass import (
+    CAMERA,
+    GLASS_CENTRE,
+    GLASS_RADIUS,
+    LIGHTS,
+    TABLE_AXES,
+    TABLE_SUFFIX,
+    WALLS,
+    spheres,
+)
 from figures.figure import Quality
 from figures.tables import Tables
 

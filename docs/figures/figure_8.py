@@ -27,7 +27,7 @@ WORDS = ("violet", "blue", "yellow", "red")
 VIEW = View(light_deg=26.0, camera_deg=26.0)
 """The stated geometry: the light 26 degrees from the vertical on one side, the view on the other."""
 OTHER_VIEWS = (View(8.0, 8.0), View(40.0, 40.0))
-"""Closer to normal incidence, where the thickest ridge is closest to red; and flatter, where 100 nm is blue."""
+"""Closer to normal incidence, where 135 nm is closest to red; and flatter, where 100 nm is bluer."""
 ALPHA = 0.3
 """Of the wings' facets: assumed; hues do not depend on it."""
 STOPS = -0.8
@@ -59,7 +59,7 @@ def _shown(linear: FloatArray) -> Image.Image:
 
 def _caption(view: View) -> str:
     ridges = "Ridges of 80, 100, 120 and 135 nm"
-    return f"{ridges}; light and view {view.light_deg:g}° either side of the vertical, {view.facet_deg:g}° at facets"
+    return f"{ridges}: light and view at {view.facet_deg:g}° on either side of the vertical"
 
 
 def rendering(tables: Tables, view: View, quality: Quality) -> FloatArray:

@@ -24,7 +24,7 @@ FloatArray = NDArray[np.float64]
 PRESET = "paper/figure-9"
 VIEWS = (View(26.0, 26.0), View(64.0, 16.0))
 """In the direction of the mirror, and far from it: the facets that reflect there lean by 24 degrees."""
-STOPS = (-0.6, 0.6)
+STOPS = (-1.1, 0.4)
 STATED_DEG = np.array([0.0, 26.0, 40.0, 60.0])
 
 
@@ -56,7 +56,7 @@ OURS = Model(
     "Ashikhmin-Shirley, exponents 200 and 11.4",
     ("surface.distribution=ashikhmin-shirley", "surface.exponent_x=200", "surface.exponent_y=11.4"),
 )
-"""Assumed; the product of both alphas is that of 50 and 50. The ridges run along x, so that facets lean along y."""
+"""Assumed; the product of both alphas is that of 50 and 50. Ridges run along x: facets lean along y."""
 
 
 def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
@@ -105,9 +105,9 @@ def _luminance(rgb: FloatArray) -> float:
 
 FIGURE = Figure(
     number=9,
-    caption="Comparison of rendered biological iridescences of Morpho butterfly wings with 90nm cuticle layer "
-    "thickness using Sun butterfly shader (Sun, 2006) (left) and our proposed multilayer interference model "
-    "(right) respectively.",
+    caption="Comparison of rendered biological iridescences of Morpho butterfly wings with 90nm cuticle "
+    "layer thickness using Sun butterfly shader (Sun, 2006) (left) and our proposed multilayer interference "
+    "model (right) respectively.",
     quality=Quality(height=430, samples=128),
     render=render,
     findings=findings,
