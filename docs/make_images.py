@@ -68,11 +68,16 @@ def write_spheres(folder: Path, path: Path) -> None:
     write_jpeg(Image.fromarray(pixels), path)
 
 
-def texture(folder: Path, preset: str) -> FloatArray:
+def texture(folder: Path, preset: str, *options: str) -> FloatArray:
     """Return the lookup texture of a preset, (H, W, 3): thickness downwards, cos_theta to the right."""
-    run("tabulate", preset, "--format", "exr", "-o", str(folder))
-    with OpenEXR.File(str(folder / f"{preset}.exr")) as file:
+    run("tabulate", preset, *options, "--format", "exr", "-o", str(folder))
+    with OpenEXR.File(str(folder / f"{stem_of(preset)}.exr")) as file:
         return np.asarray(file.channels()["RGB"].pixels, np.float64)
+
+
+def stem_of(preset: str) -> str:
+    """Return what the files of a preset are called."""
+    return preset.replace("/", "-")
 
 
 def run(*arguments: str) -> None:
@@ -83,17 +88,27 @@ def run(*arguments: str) -> None:
 
 def drawn(sphere: Sphere, lookup: FloatArray) -> FloatArray:
     """Return one cell of the picture, linear, (CELL, CELL, 3)."""
-    size = CELL * OVERSAMPLING
-    y, x = (np.mgrid[:size, :size] + 0.5 - size / 2) / (RADIUS * OVERSAMPLING)
-    distance2 = x**2 + y**2
-    cos_theta = np.sqrt(np.maximum(1 - distance2, 0))
+    x, y = places()
+    cos_theta = np.sqrt(np.maximum(1 - x**2 - y**2, 0))
     share = sphere.thinnest + (sphere.thickest - sphere.thinnest) * (y + 1) / 2
     film = read(lookup, cos_theta, np.clip(share, 0, 1))
     # The view is along z: r = 2 (n.z) n - z is where the mirror looks.
     sky = light(2 * cos_theta * x, -2 * cos_theta * y, 2 * cos_theta**2 - 1)
     shaded = 2.0**sphere.stops * np.maximum(film, 0) * sky[..., None]
-    inside = (distance2 < 1)[..., None]
-    picture = np.where(inside, shaded, BACKGROUND)
+    return cut_out(shaded)
+
+
+def places() -> tuple[FloatArray, FloatArray]:
+    """Return where the samples of a cell are, in radii from its middle, (x, y), y downwards."""
+    size = CELL * OVERSAMPLING
+    y, x = (np.mgrid[:size, :size] + 0.5 - size / 2) / (RADIUS * OVERSAMPLING)
+    return x, y
+
+
+def cut_out(shaded: FloatArray) -> FloatArray:
+    """Return one cell of the picture from its samples: what lies outside of the sphere is background."""
+    x, y = places()
+    picture = np.where((x**2 + y**2 < 1)[..., None], shaded, BACKGROUND)
     return picture.reshape(CELL, OVERSAMPLING, CELL, OVERSAMPLING, 3).mean(axis=(1, 3))
 
 
@@ -134,12 +149,12 @@ def encoded(linear: FloatArray) -> FloatArray:
     return np.where(shown <= 0.0031308, 12.92 * shown, 1.055 * shown ** (1 / 2.4) - 0.055)
 
 
-def write_preview(folder: Path, preset: str, path: Path) -> None:
+def write_preview(folder: Path, preset: str, path: Path, width: int = 1200) -> None:
     """Write what `nacreous preview` draws, in a size for a page."""
     drawing = folder / "preview.png"
     run("preview", preset, "-o", str(drawing))
     with Image.open(drawing) as picture:
-        size = (1200, 1200 * picture.height // picture.width)
+        size = (width, width * picture.height // picture.width)
         small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
     write_jpeg(small, path)
 

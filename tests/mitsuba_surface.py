@@ -43,12 +43,16 @@ def variant_fault(variant: str) -> str:
 
 
 def conductor(
-    alpha_x: float, alpha_y: float, index: NDArray[np.complex128], wavelength_nm: NDArray[np.float64]
+    alpha_x: float,
+    alpha_y: float,
+    index: NDArray[np.complex128],
+    wavelength_nm: NDArray[np.float64],
+    distribution: str = "ggx",
 ) -> Bsdf:
-    """Return a `roughconductor`, GGX, of an index n + ik (L,) given at ascending wavelengths (L,)."""
+    """Return a `roughconductor` of an index n + ik (L,) given at ascending wavelengths (L,)."""
     return _load(
         type="roughconductor",
-        distribution="ggx",
+        distribution=distribution,
         alpha_u=alpha_x,
         alpha_v=alpha_y,
         eta=_spectrum(index.real, wavelength_nm),

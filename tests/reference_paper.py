@@ -1,10 +1,11 @@
-"""Equations 2, 3, 7 and 8 of Wu & Zheng 2015 for one film between two media, as printed and corrected.
+"""Equations of Wu & Zheng 2015 as printed and corrected: 2, 3, 7, 8 for a film, 4, 5 for several, 9, 10, 13.
 
 The tests show that the corrected forms agree with the kernels and that the printed ones do not. r_1, t_1
 belong to the first boundary, r_2, t_2 to the second (equation 10); delta is the phase of equation 6, complex
 where the film absorbs. Everything is elementwise.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -36,8 +37,8 @@ def single_film(
     cos = np.sqrt(1 - (n[0] / n) ** 2 * (1 - cos_theta**2))  # Snell's law
     delta = 4 * np.pi / wavelength_nm * n[1] * thickness_nm * cos[1]
     printed_flux_ratio = (n[2] * cos[1] / (n[0] * cos[0])).real
-    (r_1s, t_1s), (r_2s, t_2s) = (_perpendicular(*n[j : j + 2], *cos[j : j + 2]) for j in (0, 1))
-    (r_1p, t_1p), (r_2p, t_2p) = (_parallel(*n[j : j + 2], *cos[j : j + 2]) for j in (0, 1))
+    (r_1s, t_1s), (r_2s, t_2s) = (equation_10_perpendicular(*n[j : j + 2], *cos[j : j + 2]) for j in (0, 1))
+    (r_1p, t_1p), (r_2p, t_2p) = (equation_10_parallel(*n[j : j + 2], *cos[j : j + 2]) for j in (0, 1))
     s_flux, p_flux = ((n[2] * c).real / (n[0] * cos[0]).real for c in (cos[2], cos[2].conj()))
     return (
         SingleFilm(r_1s, r_2s, t_1s, t_2s, delta, s_flux, printed_flux_ratio),
@@ -92,13 +93,87 @@ def _bounces(f: SingleFilm) -> Real:
     return bounces
 
 
-def _perpendicular(n_1: complex, n_2: complex, cos_1: complex, cos_2: complex) -> tuple[Complex, Complex]:
+class Multilayer(NamedTuple):
+    """One polarisation of several films: what equations 4 and 5 are made of, from the outside inwards."""
+
+    r: list[Complex]
+    t: list[Complex]
+    delta: list[Complex]
+
+
+def multilayer(
+    index: Sequence[complex], thickness_nm: Sequence[float], wavelength_nm: Real, cos_theta: float
+) -> tuple[Multilayer, Multilayer]:
+    """Equations 6 and 10 for every boundary and layer: (s, p)."""
+    n = np.asarray(index, complex)
+    cos = np.sqrt(1 - (n[0] / n) ** 2 * (1 - cos_theta**2))  # Snell's law
+    layers = zip(n[1:-1], cos[1:-1], thickness_nm, strict=True)
+    delta = [4 * np.pi / wavelength_nm * n_j * H_j * cos_j for n_j, cos_j, H_j in layers]
+    s, p = (
+        Multilayer(
+            *map(list, zip(*(of(*n[j : j + 2], *cos[j : j + 2]) for j in range(n.size - 1)), strict=True)),
+            delta,
+        )
+        for of in (equation_10_perpendicular, equation_10_parallel)
+    )
+    return s, p
+
+
+def equation_4(m: Multilayer) -> Complex:
+    """Amplitude of reflection, with r_(M+1) read as that of all that lies below."""
+    return _composed(m, [np.ones_like(delta) for delta in m.delta])[0]
+
+
+def equation_5_printed(m: Multilayer) -> Complex:
+    """Amplitude of transmission as printed, without the phase of a passage."""
+    return _composed(m, [np.ones_like(delta) for delta in m.delta])[1]
+
+
+def equation_5(m: Multilayer) -> Complex:
+    """Amplitude of transmission, with exp(i delta / 2) for the passage of each layer."""
+    return _composed(m, [np.exp(0.5j * delta) for delta in m.delta])[1]
+
+
+def _composed(m: Multilayer, passages: list[Complex]) -> tuple[Complex, Complex]:
+    r, t = m.r[-1], m.t[-1]
+    for r_j, t_j, delta, passage in zip(m.r[-2::-1], m.t[-2::-1], m.delta[::-1], passages[::-1], strict=True):
+        bounces = 1 + r_j * r * np.exp(1j * delta)
+        r, t = (r_j + r * np.exp(1j * delta)) / bounces, t_j * t * passage / bounces
+    return r, t
+
+
+def equation_9_printed(optical_path_nm: float, orders: Sequence[int]) -> Real:
+    """Wavelengths that 2 n_1 H cos theta_1 = m lambda names."""
+    return optical_path_nm / np.asarray(orders, float)
+
+
+def equation_9(optical_path_nm: float, orders: Sequence[int]) -> Real:
+    """Wavelengths of the maxima where one of the two reflections turns the phase: (m + 1/2) lambda."""
+    return optical_path_nm / (np.asarray(orders, float) + 0.5)
+
+
+def equation_10_perpendicular(
+    n_1: complex, n_2: complex, cos_1: complex, cos_2: complex
+) -> tuple[Complex, Complex]:
     """Equation 10, s: (r, t)."""
     total = n_1 * cos_1 + n_2 * cos_2
     return np.asarray((n_1 * cos_1 - n_2 * cos_2) / total), np.asarray(2 * n_1 * cos_1 / total)
 
 
-def _parallel(n_1: complex, n_2: complex, cos_1: complex, cos_2: complex) -> tuple[Complex, Complex]:
+def equation_10_parallel(
+    n_1: complex, n_2: complex, cos_1: complex, cos_2: complex
+) -> tuple[Complex, Complex]:
     """Equation 10, p: (r, t)."""
     total = n_2 * cos_1 + n_1 * cos_2
     return np.asarray((n_2 * cos_1 - n_1 * cos_2) / total), np.asarray(2 * n_1 * cos_1 / total)
+
+
+def equation_13_printed(i: Real, o: Real, h: Real) -> float:
+    """Masking as printed, with omega_o . omega_h below both terms; directions are unit vectors (3,)."""
+    tilt = 2 * h[2] / abs(o @ h)
+    return float(min(1, tilt * abs(o[2]), tilt * abs(i[2])))
+
+
+def equation_13(i: Real, o: Real, h: Real) -> float:
+    """Masking of Torrance and Sparrow for reflection and refraction: each direction over its own cosine."""
+    return float(min(1, 2 * h[2] * abs(o[2]) / abs(o @ h), 2 * h[2] * abs(i[2]) / abs(i @ h)))
