@@ -46,59 +46,33 @@ def _below(path: str, command: Command) -> Iterator[tuple[str, Command]]:
 
 
 def _command_section(path: str, command: Command) -> nodes.section:
-    return section(
-        identifier("cli", path.removeprefix(_PROGRAM)),
-        [literal(path)],
-        *paragraphs(command.help or ""),
-        code_block(_usage(path, command), "text"),
-        *(_parameter_entry(path, parameter) for parameter in command.params),
-        *paragraphs(command.epilog or ""),
-    )
+    with command.make_context(path, [], resilient_parsing=True) as context:
+        return section(
+            identifier("cli", path.removeprefix(_PROGRAM)),
+            [literal(path)],
+            *paragraphs(command.help or ""),
+            code_block(command.get_usage(context).removeprefix("Usage: "), "text"),
+            *(_parameter_entry(path, parameter, context) for parameter in command.params),
+            *paragraphs(command.epilog or ""),
+        )
 
 
-def _usage(path: str, command: Command) -> str:
-    arguments = [_argument_usage(each) for each in command.params if _is_argument(each)]
-    ending = ["COMMAND ..."] if isinstance(command, typer.core.TyperGroup) else arguments
-    return " ".join([path, *(["[OPTIONS]"] if len(arguments) < len(command.params) else []), *ending])
-
-
-def _argument_usage(argument: Parameter) -> str:
-    shown = f"{_metavar(argument)}..." if argument.nargs == -1 else _metavar(argument)
-    return shown if argument.required else f"[{shown}]"
-
-
-def _parameter_entry(path: str, parameter: Parameter) -> nodes.Element:
+def _parameter_entry(path: str, parameter: Parameter, context: typer.Context) -> nodes.Element:
+    spelling, _ = parameter.get_help_record(context)
     return entry(
         identifier("cli", path.removeprefix(_PROGRAM), parameter.name or ""),
-        _spelling(parameter),
+        spelling,
         *paragraphs(parameter.help or ""),
         *facts(_facts(parameter)),
         note="required" if parameter.required else "",
     )
 
 
-def _spelling(parameter: Parameter) -> str:
-    if _is_argument(parameter):
-        return _metavar(parameter)
-    names = ", ".join([*parameter.opts, *parameter.secondary_opts])
-    return names if parameter.is_flag else f"{names} {_metavar(parameter)}"
-
-
-def _is_argument(parameter: Parameter) -> bool:
-    return isinstance(parameter, typer.core.TyperArgument)
-
-
-def _metavar(parameter: Parameter) -> str:
-    by_type = parameter.name if _is_argument(parameter) else parameter.display_type
-    return parameter.metavar or str(by_type).upper()
-
-
 def _facts(parameter: Parameter) -> dict[str, Inline]:
     default = parameter.default
     shown = default not in (None, False, "", (), []) and not callable(default)
-    several = getattr(parameter, "multiple", False)
     return {
         "Default": [literal(str(default))] if shown else [],
         "Variable": [literal(str(parameter.envvar))] if parameter.envvar else [],
-        "Given": [nodes.Text("as often as wanted")] if several else [],
+        "Given": [nodes.Text("as often as wanted")] if parameter.multiple else [],
     }

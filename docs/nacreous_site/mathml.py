@@ -4,13 +4,19 @@ docutils translates the LaTeX (docutils.utils.math.latex2mathml). MathML Core is
 Chrome 109 (2023).
 """
 
+from html import escape
+
 from docutils import nodes
-from docutils.utils.math import latex2mathml
+from docutils.utils.math import MathError, latex2mathml
 from sphinx.application import Sphinx
+from sphinx.util import logging
 from sphinx.util.math import get_node_equation_number
 from sphinx.writers.html5 import HTML5Translator
 
 __all__ = ["use_mathml"]
+
+_LOGGER = logging.getLogger(__name__)
+_SYNONYMS = {r"\dots": r"\ldots", "°": r"^{\circ}"}
 
 
 def use_mathml(app: Sphinx) -> None:
@@ -19,7 +25,7 @@ def use_mathml(app: Sphinx) -> None:
 
 
 def _visit_inline(translator: HTML5Translator, node: nodes.math) -> None:
-    translator.body.append(_mathml(node.astext(), as_block=False))
+    translator.body.append(_mathml(node, node.astext(), as_block=False))
     raise nodes.SkipNode
 
 
@@ -30,13 +36,25 @@ def _visit_block(translator: HTML5Translator, node: nodes.math_block) -> None:
         translator.body.append(f'<span class="eqno">({number})')
         translator.add_permalink_ref(node, "Link to this equation")
         translator.body.append("</span>")
-    translator.body.append(_mathml(_aligned(node.astext()), as_block=True))
+    translator.body.append(_mathml(node, _aligned(node.astext()), as_block=True))
     translator.body.append("</div>\n")
     raise nodes.SkipNode
 
 
-def _mathml(latex: str, *, as_block: bool) -> str:
-    return str(latex2mathml.tex2mathml(latex, as_block=as_block))
+def _mathml(node: nodes.Element, latex: str, *, as_block: bool) -> str:
+    """Return a formula, or its LaTeX and a warning where docutils does not know a command."""
+    try:
+        return str(latex2mathml.tex2mathml(_known(latex), as_block=as_block))
+    except MathError as error:
+        _LOGGER.warning("%s: %s", error, latex, location=node)
+        return f"<code>{escape(latex)}</code>"
+
+
+def _known(latex: str) -> str:
+    """Return LaTeX in the words that docutils knows."""
+    for name, known in _SYNONYMS.items():
+        latex = latex.replace(name, known)
+    return latex
 
 
 def _aligned(latex: str) -> str:

@@ -89,13 +89,13 @@ def _labelled(label: str, parts: list[nodes.Element]) -> list[nodes.Element]:
 
 
 def _parameter(parameter: Mapping[str, Any]) -> Inline:
-    described = parameter["description"].removesuffix(".")
     default = parameter["schema"].get("default")
     return [
         literal(parameter["name"]),
-        *words(f" ({parameter['in']}): {described} – "),
+        nodes.Text(f" ({parameter['in']}), "),
         *type_words(parameter["schema"], _model_link),
-        *words(f"; `{default}` without it" if default is not None else ""),
+        *words(f", `{default}` without it" if default is not None else ""),
+        *words(f": {parameter['description']}"),
     ]
 
 
