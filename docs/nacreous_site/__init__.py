@@ -10,6 +10,7 @@ from sphinx.util.typing import ExtensionMetadata
 from nacreous_site.cli_reference import CliReference
 from nacreous_site.format_reference import FormatReference
 from nacreous_site.material_reference import MaterialReference
+from nacreous_site.math_font import use_math_font
 from nacreous_site.mathml import use_mathml
 from nacreous_site.preset_reference import PresetReference
 from nacreous_site.repository_links import use_repository_links
@@ -36,4 +37,5 @@ def setup(app: Sphinx) -> ExtensionMetadata:
         app.add_directive(name, directive)
     use_repository_links(app)
     use_mathml(app)
+    use_math_font(app)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

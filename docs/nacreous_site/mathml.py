@@ -1,9 +1,10 @@
-"""Formulas as MathML, which browsers draw themselves: no script, no fonts, nothing from elsewhere.
+"""Formulas as MathML, which browsers draw themselves: no script, nothing from elsewhere.
 
 docutils translates the LaTeX (docutils.utils.math.latex2mathml). MathML Core is drawn by every browser since
 Chrome 109 (2023).
 """
 
+import re
 from html import escape
 
 from docutils import nodes
@@ -16,6 +17,12 @@ from sphinx.writers.html5 import HTML5Translator
 __all__ = ["use_mathml"]
 
 _LOGGER = logging.getLogger(__name__)
+_FUNCTION = re.compile(
+    r"(?P<factor>(?<=[\w})])\s*)?"
+    r"(?P<name>\\(?:sin|cos|tan|exp|ln|log|arg|Re|Im|operatorname\{\w+\})(?![A-Za-z])(?:\^(?:\w|\{[^}]*\}))?)\s*"
+    r"(?P<argument>(?=[\w\\])(?!\\(?:left|big|,)))?"
+)
+_BAR = re.compile(r"<mo(?: stretchy=\"false\")?>([|‖⟨⟩])</mo>")
 _SYNONYMS = {r"\dots": r"\ldots", "°": r"^{\circ}"}
 
 
@@ -44,17 +51,24 @@ def _visit_block(translator: HTML5Translator, node: nodes.math_block) -> None:
 def _mathml(node: nodes.Element, latex: str, *, as_block: bool) -> str:
     """Return a formula, or its LaTeX and a warning where docutils does not know a command."""
     try:
-        return str(latex2mathml.tex2mathml(_known(latex), as_block=as_block))
+        formula = latex2mathml.tex2mathml(_known(latex), as_block=as_block)
     except MathError as error:
         _LOGGER.warning("%s: %s", error, latex, location=node)
         return f"<code>{escape(latex)}</code>"
+    return _BAR.sub(r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>', formula)  # no relation, no growth
 
 
 def _known(latex: str) -> str:
     """Return LaTeX in the words that docutils knows."""
     for name, known in _SYNONYMS.items():
         latex = latex.replace(name, known)
-    return latex
+    return _FUNCTION.sub(_spaced, latex)
+
+
+def _spaced(function: re.Match[str]) -> str:
+    """Return a function with the thin spaces that TeX sets about one, and docutils does not."""
+    before, after = ("" if function[side] is None else r"\," for side in ("factor", "argument"))
+    return f"{before}{function['name'].strip()}{after}"
 
 
 def _aligned(latex: str) -> str:
