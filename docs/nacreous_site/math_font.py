@@ -1,6 +1,6 @@
 """STIX Two Math for the formulas: browsers set MathML well only in a font that has a table of its measures.
 
-The font (SIL Open Font License 1.1) comes with the Python package ziamath. What formulas need of it is written
+The font (SIL Open Font License 1.1) comes with the package ziamath. What formulas need of it is written
 beside the style sheets when a build ends; nacreous.css names it.
 """
 
