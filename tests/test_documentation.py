@@ -25,6 +25,8 @@ PAGES = sorted(
     for pages in ("*.md", "docs/**/*.md", "kernels/*.md", "clients/*.md", "clients/*/*.md")
     for page in ROOT.glob(pages)
 )
+TUTORIALS = ROOT / "docs" / "tutorials"
+"""Followed by test_tutorials.py, which compares what they print as well."""
 NOT_RUN = "<!-- not run:"
 """Stands, with a reason, in the line above a block that is shown but not run."""
 NEEDS = re.compile(r"<!-- needs: (?P<names>[\w, .-]+) -->")
@@ -120,7 +122,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.mark.parametrize(
-    "page", [p for p in PAGES if runnable_blocks(p)], ids=lambda page: str(page.relative_to(ROOT))
+    "page",
+    [p for p in PAGES if runnable_blocks(p) and p.parent != TUTORIALS],
+    ids=lambda page: str(page.relative_to(ROOT)),
 )
 def test_the_blocks_of_a_page_run_in_order(
     page: Path, tmp_path: Path, request: pytest.FixtureRequest
