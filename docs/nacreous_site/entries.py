@@ -55,6 +55,13 @@ class ReferenceDirective(SphinxDirective):
         for name in node["names"]:
             node["ids"] = [name]
             self.state.document.note_explicit_target(node, node)
+            if isinstance(node, addnodes.desc_signature):  # Sphinx itself labels sections alone
+                self._label(name, node.astext())
+
+    def _label(self, name: str, title: str) -> None:
+        standard = self.env.domains.standard_domain
+        standard.labels[name] = (self.env.docname, name, title)
+        standard.anonlabels[name] = (self.env.docname, name)
 
 
 def identifier(*parts: str) -> str:

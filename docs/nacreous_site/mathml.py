@@ -14,7 +14,7 @@ from sphinx.util import logging
 from sphinx.util.math import get_node_equation_number
 from sphinx.writers.html5 import HTML5Translator
 
-__all__ = ["use_mathml"]
+__all__ = ["formula", "use_mathml"]
 
 _LOGGER = logging.getLogger(__name__)
 _FUNCTION = re.compile(
@@ -51,11 +51,16 @@ def _visit_block(translator: HTML5Translator, node: nodes.math_block) -> None:
 def _mathml(node: nodes.Element, latex: str, *, as_block: bool) -> str:
     """Return a formula, or its LaTeX and a warning where docutils does not know a command."""
     try:
-        formula = latex2mathml.tex2mathml(_known(latex), as_block=as_block)
-    except MathError as error:
+        return formula(latex, as_block=as_block)
+    except (MathError, AttributeError) as error:  # the second where an & stands outside of an array
         _LOGGER.warning("%s: %s", error, latex, location=node)
         return f"<code>{escape(latex)}</code>"
-    return _BAR.sub(r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>', formula)  # no relation, no growth
+
+
+def formula(latex: str, *, as_block: bool) -> str:
+    """Return the MathML of a formula in LaTeX; raises `MathError` where docutils does not know a command."""
+    made = latex2mathml.tex2mathml(_known(latex), as_block=as_block)
+    return _BAR.sub(r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>', made)  # no relation, no growth
 
 
 def _known(latex: str) -> str:
