@@ -53,7 +53,7 @@ def spheres(glass: dict[str, Any]) -> dict[str, Any]:
     return {
         "mirror": {"type": "sphere", "center": list(MIRROR_CENTRE), "bsdf": {"type": "conductor"}},
         "glass": {"type": "sphere", "center": list(GLASS_CENTRE), "radius": GLASS_RADIUS, "bsdf": glass},
-        "floor": studio.chequered(dark=0.025, light=0.14, square=1.6),
+        "floor": studio.chequered(dark=0.025, light=0.14, square=1.6, turn_deg=28),
     } | rods()
 
 

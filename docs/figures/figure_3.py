@@ -45,7 +45,7 @@ FIGURE = Figure(
         "Renderings from a mirror sphere with perfect specular reflection (left) and a glass sphere coated "
         "with the 420 nm dielectric film (right)."
     ),
-    quality=Quality(height=690, samples=196),
+    quality=Quality(height=690, samples=144),
     render=render,
     findings=findings,
 )

@@ -54,7 +54,7 @@ FIGURE = Figure(
         "Renderings from a mirror sphere coated with perfect specular reflection (left) and a glass sphere "
         "with the 450 nm dielectric film (right)."
     ),
-    quality=Quality(height=690, samples=196),
+    quality=Quality(height=690, samples=144),
     render=render,
     findings=findings,
 )
