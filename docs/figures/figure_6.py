@@ -65,7 +65,7 @@ FIGURE = Figure(
     number=6,
     caption="Interference renderings of teapots with the different surface roughnesses and thin film "
     "thicknesses.",
-    quality=Quality(height=348, samples=160),
+    quality=Quality(height=348, samples=144),
     render=render,
     findings=findings,
 )
