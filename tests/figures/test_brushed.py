@@ -1,7 +1,5 @@
 """Brushed surfaces of figures 6 and 7: their lobes, and a highlight on the teapot."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 

@@ -8,8 +8,9 @@ import pytest
 
 from figures import studio
 from figures.figure import Quality
-from figures.figure_8 import THICKNESSES_NM, VIEW, WORDS, film_colours, rendering
+from figures.figure_8 import VIEW, rendering
 from figures.hue import lab
+from figures.ridges import PAPER, THICKNESSES_NM, WORDS
 from figures.tables import Tables
 from mitsuba_plugin import use_variant
 from reference import film
@@ -69,7 +70,7 @@ def test_no_angle_gives_all_four_words() -> None:
 @pytest.mark.parametrize("thickness_nm", THICKNESSES_NM)
 def test_the_table_has_the_exact_hue(thickness_nm: float) -> None:
     """Our colour in the stated geometry is that of the reference, in steps of 5 nm instead of 1."""
-    ours = film_colours(thickness_nm, np.array([0.0, VIEW.facet_deg]))[1]
+    ours = PAPER.colours(thickness_nm, np.array([0.0, VIEW.facet_deg]))[1]
     np.testing.assert_allclose(ours, exact_colours(thickness_nm)[STATED], rtol=0, atol=2e-3)
     assert hue_deg(ours) == pytest.approx(hue_deg(exact_colours(thickness_nm)[STATED]), abs=0.5)
 
