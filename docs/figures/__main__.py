@@ -49,7 +49,8 @@ def make(figure: Figure, tables: Tables, options: argparse.Namespace) -> None:
     sys.stderr.flush()
     for name, picture in figure.render(tables, chosen_quality(figure, options)).items():
         write_jpeg(picture, options.out / f"{name}.jpg")
-    write_block(options.page, figure.name, figure.findings(tables))
+    caption = f"The paper's caption: “{figure.caption}”"
+    write_block(options.page, figure.name, (caption, "", *figure.findings(tables)))
     sys.stderr.write(f"{perf_counter() - started:.0f} s\n")
 
 

@@ -17,7 +17,7 @@ from figures.tables import MITSUBA_RANGE, Tables
 
 FloatArray = NDArray[np.float64]
 
-CAMERA = Camera(origin=(0.0, -10.5, 2.5), target=(0.0, 0.0, 0.98), fov_deg=13.4, aspect=1.8)
+CAMERA = Camera(origin=(0.0, -10.5, 2.5), target=(0.0, 0.0, 0.97), fov_deg=14.4, aspect=1.8)
 MIRROR_CENTRE = (-1.1, 0.45, 1.0)
 GLASS_CENTRE = (1.08, -0.2, 1.0)
 GLASS_RADIUS = 1.0
@@ -27,7 +27,7 @@ LIGHTS = (
     SoftBox(270, 34, 40, 64, 2.6),
     SoftBox(90, 34, 40, 64, 2.6),
     SoftBox(180, 8, 60, 22, 1.8),
-    SoftBox(0, 52, 110, 26, 2.0),
+    SoftBox(0, 50, 110, 24, 1.5),
 )
 WALLS = Walls(below=(0.01, 0.01, 0.01), horizon=(0.05, 0.055, 0.065), zenith=(0.02, 0.02, 0.02))
 ROD_COLOURS = ((0.80, 0.74, 0.62), (0.50, 0.17, 0.07), (0.07, 0.16, 0.26))
@@ -53,7 +53,7 @@ def spheres(glass: dict[str, Any]) -> dict[str, Any]:
     return {
         "mirror": {"type": "sphere", "center": list(MIRROR_CENTRE), "bsdf": {"type": "conductor"}},
         "glass": {"type": "sphere", "center": list(GLASS_CENTRE), "radius": GLASS_RADIUS, "bsdf": glass},
-        "floor": studio.chequered(dark=0.025, light=0.14, square=1.6),
+        "floor": studio.chequered(dark=0.025, light=0.14, square=1.6, turn_deg=28),
     } | rods()
 
 
@@ -62,8 +62,8 @@ def rods() -> dict[str, Any]:
     return {
         f"rod-{at}": {
             "type": "cylinder",
-            "p0": [x, 4.5, 0],
-            "p1": [x, 4.5, 2.0 + 0.35 * (at % 3)],
+            "p0": [x, 5.0, 0],
+            "p1": [x, 5.0, 1.2 + 0.3 * (at % 2)],
             "radius": 0.16,
             "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": list(colour)}},
         }

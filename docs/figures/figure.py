@@ -26,7 +26,7 @@ class Figure:
     ----------
     number : int
     caption : str
-        The paper's own.
+        The paper's own; it goes before the findings.
     quality : Quality
         What `make figures` renders it with.
     render : callable

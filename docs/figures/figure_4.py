@@ -4,10 +4,11 @@ from collections.abc import Iterator
 
 from PIL import Image
 
+import nacreous
 from figures.coated_glass import rendering
 from figures.figure import Figure, Quality
 from figures.film_chart import ShownFilm, film_chart
-from figures.interference import colour_lines, maxima_lines
+from figures.interference import STATED_ANGLES_DEG, colour_lines, maxima_lines, share_of_red
 from figures.pictures import exposed, labelled
 from figures.tables import Tables
 
@@ -28,11 +29,23 @@ def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
 
 
 def findings(_: Tables) -> Iterator[str]:
-    """Return the film's exact colours, and how the maxima move from figure 3 to 4."""
-    yield from colour_lines(PRESET)
+    """Return both films' exact colours, and how the maxima and the colour move from figure 3 to 4."""
+    yield from maxima_lines({film.label: (film.preset, film.thickness_nm) for film in FILMS}, INDEX)
     yield ""
-    films = {film.label: (film.preset, film.thickness_nm) for film in FILMS}
-    yield from maxima_lines(films, INDEX)
+    yield from colour_lines({film.label: nacreous.preset(film.preset) for film in FILMS})
+    yield ""
+    yield from shift_lines()
+
+
+def shift_lines() -> Iterator[str]:
+    """Tell which way the colour moves, as the share of red, where the paper says that it moves to red."""
+    thin, thick = (share_of_red(nacreous.preset(film.preset), STATED_ANGLES_DEG) for film in FILMS)
+    falling = ", ".join(f"{theta:.0f}°" for theta in STATED_ANGLES_DEG[thick < thin])
+    rising = ", ".join(f"{theta:.0f}°" for theta in STATED_ANGLES_DEG[thick >= thin]) or "none of them"
+    yield (
+        "The share of red in the linear colour, R / (R + G + B), moves at normal incidence from "
+        f"{thin[0]:.2f} to {thick[0]:.2f}. Of the angles above it falls at {falling}, and rises at {rising}."
+    )
 
 
 FIGURE = Figure(
@@ -41,7 +54,7 @@ FIGURE = Figure(
         "Renderings from a mirror sphere coated with perfect specular reflection (left) and a glass sphere "
         "with the 450 nm dielectric film (right)."
     ),
-    quality=Quality(height=720, samples=256),
+    quality=Quality(height=690, samples=144),
     render=render,
     findings=findings,
 )

@@ -9,10 +9,10 @@ from PIL import Image
 import nacreous
 from figures import studio
 from figures.figure import Figure, Quality
-from figures.hue import lab
+from figures.interference import colour_lines
 from figures.pictures import exposed, labelled, side_by_side
 from figures.studio import Camera, SoftBox
-from figures.tables import MITSUBA_RANGE, Tables, colours, table_at_angles
+from figures.tables import MITSUBA_RANGE, Tables
 from figures.torus_knot import torus_knot
 from nacreous import Spec
 
@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 PRESET = "paper/figure-5"
 THICKNESSES_NM = (400.0, 600.0)
 STOPS = 0.8
-CAMERA = Camera(origin=(0.0, -10.5, 4.2), target=(0.0, 0.0, 0.92), fov_deg=15.5, aspect=1.1)
+CAMERA = Camera(origin=(0.15, -10.5, 4.0), target=(0.12, 0.0, 0.92), fov_deg=15.2, aspect=1.15)
 LIGHTS = (
     SoftBox(180, 58, 130, 50, 2.6, edge_deg=8),
     SoftBox(265, 30, 50, 56, 3.6, edge_deg=8),
@@ -50,7 +50,7 @@ def rendering(tables: Tables, thickness_nm: float, quality: Quality) -> FloatArr
     """Render both objects with one film, linear (H, W, 3)."""
     bsdf = studio.measured(tables.written(surface_spec(thickness_nm), ".bsdf"))
     objects = {
-        "sphere": {"type": "sphere", "center": [0.98, -0.7, 0.56], "radius": 0.56, "bsdf": bsdf},
+        "sphere": {"type": "sphere", "center": [1.08, -0.7, 0.58], "radius": 0.58, "bsdf": bsdf},
         "knot": torus_knot(bsdf),
         "floor": studio.plain(0.08),
     }
@@ -59,25 +59,17 @@ def rendering(tables: Tables, thickness_nm: float, quality: Quality) -> FloatArr
 
 
 def findings(_: Tables) -> Iterator[str]:
-    """Return the exact colours of both films."""
-    angles = np.array([0.0, 30.0, 45.0, 60.0])
-    yield "| film | " + " | ".join(f"{each:.0f}°" for each in angles) + " |"
-    yield "|---|" + "---|" * len(angles)
-    for thickness in THICKNESSES_NM:
-        rgb = film_colours(thickness, angles)
-        yield f"| {thickness:.0f} nm | " + " | ".join(str(lab(colour)) for colour in rgb) + " |"
-
-
-def film_colours(thickness_nm: float, theta_deg: FloatArray) -> FloatArray:
-    """Return the linear colours of one of the preset's films on a smooth surface, (A, 3)."""
-    return colours(table_at_angles(surface_spec(thickness_nm), theta_deg))
+    """Return the exact colours of both films on a smooth surface."""
+    yield "Light that each film reflects once, on a facet that it meets at this angle, exactly:"
+    yield ""
+    yield from colour_lines({f"{each:.0f} nm": surface_spec(each) for each in THICKNESSES_NM})
 
 
 FIGURE = Figure(
     number=5,
     caption="Interference renderings of opaque objects coated with 400 nm and 600 nm dielectric films "
     "respectively.",
-    quality=Quality(height=640, samples=192),
+    quality=Quality(height=640, samples=100),
     render=render,
     findings=findings,
 )

@@ -1,6 +1,6 @@
 """What a film of the paper does by itself: where its reflectance is largest, its colours over angle."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import xarray
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 import nacreous
 from figures.hue import lab
 from figures.tables import colours, spectra, table_at_angles
+from nacreous import Spec
 
 FloatArray = NDArray[np.float64]
 
@@ -39,9 +40,9 @@ def normal_incidence(preset: str) -> xarray.Dataset:
     return table_at_angles(nacreous.preset(preset), np.array([0.0, 1.0]), step_nm=1.0)
 
 
-def maxima_lines(films: dict[str, tuple[str, float]], index: float) -> Iterator[str]:
+def maxima_lines(films: Mapping[str, tuple[str, float]], index: float) -> Iterator[str]:
     """Return a Markdown table of maxima; films are a preset and a thickness in nm by their names."""
-    yield "| film | maxima of our table, nm | 4 n d / (2m + 1), nm |"
+    yield "| film | R of the table is largest at, nm | 4 n d / (2m + 1), nm |"
     yield "|---|---|---|"
     for name, (preset, thickness_nm) in films.items():
         table = normal_incidence(preset)
@@ -49,14 +50,23 @@ def maxima_lines(films: dict[str, tuple[str, float]], index: float) -> Iterator[
         yield f"| {name} | {_joined(maxima_of(table))} | {_joined(formula)} |"
 
 
-def colour_lines(preset: str) -> Iterator[str]:
-    """Return a Markdown table of the colours of R over angle, with the words for them."""
-    yield "| angle of incidence | linear R, G, B of the reflected light | its hue |"
-    yield "|--:|---|---|"
-    rgb = colours(table_at_angles(nacreous.preset(preset), STATED_ANGLES_DEG))
-    for theta, colour in zip(STATED_ANGLES_DEG, rgb, strict=True):
-        numbers = ", ".join(f"{channel:.3f}" for channel in colour)
-        yield f"| {theta:.0f}° | {numbers} | {lab(colour)} |"
+def colour_lines(films: Mapping[str, Spec], theta_deg: FloatArray = STATED_ANGLES_DEG) -> Iterator[str]:
+    """Return a Markdown table of R over angle: linear colours of films by their names, and words for them."""
+    yield "| angle of incidence | " + " | ".join(f"{name}: linear R, G, B | hue" for name in films) + " |"
+    yield "|--:|" + "---|---|" * len(films)
+    rgb = [colours(table_at_angles(spec, theta_deg)) for spec in films.values()]  # (films, A, 3)
+    for theta, row in zip(theta_deg, zip(*rgb, strict=True), strict=True):
+        yield f"| {theta:.0f}° | " + " | ".join(f"{_numbers(each)} | {lab(each)}" for each in row) + " |"
+
+
+def share_of_red(spec: Spec, theta_deg: FloatArray) -> FloatArray:
+    """Return R / (R + G + B) of the film's linear colours, (A,)."""
+    rgb = colours(table_at_angles(spec, theta_deg))
+    return rgb[:, 0] / rgb.sum(axis=1)
+
+
+def _numbers(rgb: FloatArray) -> str:
+    return ", ".join(f"{channel:.3f}" for channel in rgb)
 
 
 def _joined(wavelength_nm: FloatArray) -> str:

@@ -132,7 +132,13 @@ def _inside(distance_deg: FloatArray, extent_deg: float, edge_deg: float) -> Flo
 # ---- floor, camera, scene ----------------------------------------------------------------------------------
 
 
-def chequered(dark: float = 0.05, light: float = 0.16, square: float = 1.25, extent: float = 40.0) -> Scene:
+def chequered(
+    dark: float = 0.05,
+    light: float = 0.16,
+    square: float = 1.25,
+    extent: float = 40.0,
+    turn_deg: float = 0.0,
+) -> Scene:
     """Return a chequered floor at z = 0, which shows what is reflected and what is let through."""
     import mitsuba as mi
 
@@ -144,7 +150,7 @@ def chequered(dark: float = 0.05, light: float = 0.16, square: float = 1.25, ext
     }
     return {
         "type": "rectangle",
-        "to_world": mi.ScalarTransform4f().scale([extent, extent, 1]),
+        "to_world": mi.ScalarTransform4f().rotate([0, 0, 1], turn_deg).scale([extent, extent, 1]),
         "bsdf": {"type": "diffuse", "reflectance": squares},
     }
 
