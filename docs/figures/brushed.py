@@ -23,6 +23,8 @@ FloatArray = NDArray[np.float64]
 
 RANGE_NM = {"start": 380, "stop": 740, "step": 10}
 """Of a measured file: a fringe of these films is over 60 nm wide, and the eye sees little beyond."""
+FEW_BOUNCES = {"integrator": {"type": "path", "max_depth": 5}}
+"""Of light among opaque objects: what comes later is dark."""
 STATED_DEG = np.array([0.0, 30.0, 45.0, 60.0])
 
 

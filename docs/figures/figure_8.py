@@ -92,7 +92,7 @@ FIGURE = Figure(
     number=8,
     caption="Rendered biological iridescences of Morpho butterflies consisting of tree-like ridge structures "
     "with cuticle films of different thicknesses (left to right: 80 nm, 100 nm, 120 nm and 135 nm).",
-    quality=Quality(height=264, samples=144),
+    quality=Quality(height=264, samples=64),
     render=render,
     findings=findings,
 )

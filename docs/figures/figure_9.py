@@ -108,7 +108,7 @@ FIGURE = Figure(
     caption="Comparison of rendered biological iridescences of Morpho butterfly wings with 90nm cuticle "
     "layer thickness using Sun butterfly shader (Sun, 2006) (left) and our proposed multilayer interference "
     "model (right) respectively.",
-    quality=Quality(height=430, samples=144),
+    quality=Quality(height=430, samples=64),
     render=render,
     findings=findings,
 )
