@@ -10,7 +10,7 @@ from PIL import Image
 
 import nacreous
 from figures.hue import lab
-from figures.lobe import Lobe, lobe_of_file, lobe_of_film
+from figures.lobe import Lobe, lobe_of_file, lobe_of_film, shown_width
 from figures.pictures import exposed, labelled, side_by_side, stacked
 from figures.tables import Tables, colours, table_at_angles
 from nacreous import Spec
@@ -23,6 +23,8 @@ FloatArray = NDArray[np.float64]
 
 RANGE_NM = {"start": 380, "stop": 740, "step": 10}
 """Of a measured file: a fringe of these films is over 60 nm wide, and the eye sees little beyond."""
+FEW_BOUNCES = {"integrator": {"type": "path", "max_depth": 5}}
+"""Of light among opaque objects: what comes later is dark."""
 STATED_DEG = np.array([0.0, 30.0, 45.0, 60.0])
 
 
@@ -98,5 +100,6 @@ def lobe_lines(tables: Tables, surfaces: Sequence[Brushed]) -> Iterator[str]:
     for surface in {each.roughness: each for each in surfaces}.values():
         file, exact = lobe_of_file(measured_file(tables, surface.spec)), surface.exact_lobe
         alphas = ", ".join(f"{alpha:.3f}" for alpha in surface.alphas)
-        widths = f"{file.x_deg:.1f}°, {exact.x_deg:.1f}° | {file.y_deg:.1f}°, {exact.y_deg:.1f}°"
-        yield f"| {surface.roughness:g} | {alphas} | {widths} |"
+        along_x = f"{shown_width(file.x_deg)}, {shown_width(exact.x_deg)}"
+        along_y = f"{shown_width(file.y_deg)}, {shown_width(exact.y_deg)}"
+        yield f"| {surface.roughness:g} | {alphas} | {along_x} | {along_y} |"

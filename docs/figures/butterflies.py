@@ -64,8 +64,10 @@ def butterfly(folder: Path, film: Scene, name: str, place: float) -> dict[str, S
     import mitsuba as mi
 
     to_world = mi.ScalarTransform4f().translate([place, 0.0, 0.25])
+    shared = mi.load_dict(film)  # each instance would be compiled by itself
+    looks = {part: mi.load_dict(_winged(part, shared)) for part in WINGS}
     parts = {
-        f"{name}-{part}-{side}": _ply(folder, f"{part}-{side}", to_world, _winged(part, film))
+        f"{name}-{part}-{side}": _ply(folder, f"{part}-{side}", to_world, looks[part])
         for part in WINGS
         for side in SIDES
     }
@@ -73,7 +75,7 @@ def butterfly(folder: Path, film: Scene, name: str, place: float) -> dict[str, S
     return parts | {f"{name}-body": _ply(folder, "body", to_world, dark)}
 
 
-def _ply(folder: Path, name: str, to_world: object, bsdf: Scene) -> Scene:
+def _ply(folder: Path, name: str, to_world: object, bsdf: object) -> Scene:
     """Return a mesh from a file, which is written if it is not there."""
     file = folder / f"{name}.ply"
     if not file.is_file():
@@ -82,7 +84,7 @@ def _ply(folder: Path, name: str, to_world: object, bsdf: Scene) -> Scene:
     return {"type": "ply", "filename": str(file), "to_world": to_world, "bsdf": bsdf}
 
 
-def _winged(name: str, film: Scene) -> Scene:
+def _winged(name: str, film: object) -> Scene:
     """Return the film where a wing has no pigment, from both sides; Mitsuba counts v from the first row."""
     import mitsuba as mi
 
@@ -104,7 +106,7 @@ def row_scene(folder: Path, films: Sequence[Scene], view: View, height: int) -> 
         insects |= butterfly(folder, film, f"butterfly-{at}", (at - middle) * SPACING)
     return {
         "type": "scene",
-        "integrator": {"type": "path", "max_depth": 6},
+        "integrator": {"type": "path", "max_depth": 3},
         "sensor": camera(view, len(films), height),
         "light": lamp(view),
         "ground": ground(),

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from figures import studio
-from figures.brushed import Brushed, colour_lines, lobe_lines, measured_file, panels
+from figures.brushed import FEW_BOUNCES, Brushed, colour_lines, lobe_lines, measured_file, panels
 from figures.figure import Figure, Quality
 from figures.meshes.mesh import write_ply
 from figures.meshes.teapot import teapot
@@ -44,7 +44,8 @@ def scene(tables: Tables, surface: Brushed, height: int) -> Scene:
     """Return one panel's scene."""
     bsdf = studio.measured(measured_file(tables, surface.spec))
     pot = {"type": "ply", "filename": str(teapot_file(tables.folder)), "bsdf": bsdf}
-    return studio.scene(studio.room(LIGHTS), CAMERA, height, {"teapot": pot, "floor": studio.plain(0.06)})
+    objects = {"teapot": pot, "floor": studio.plain(0.06)} | FEW_BOUNCES
+    return studio.scene(studio.room(LIGHTS), CAMERA, height, objects)
 
 
 def teapot_file(folder: Path) -> Path:
@@ -65,7 +66,7 @@ FIGURE = Figure(
     number=6,
     caption="Interference renderings of teapots with the different surface roughnesses and thin film "
     "thicknesses.",
-    quality=Quality(height=348, samples=160),
+    quality=Quality(height=348, samples=100),
     render=render,
     findings=findings,
 )

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from figures import studio
-from figures.brushed import Brushed, colour_lines, lobe_lines, measured_file, panels
+from figures.brushed import FEW_BOUNCES, Brushed, colour_lines, lobe_lines, measured_file, panels
 from figures.figure import Figure, Quality
 from figures.meshes.kangaroo import kangaroo
 from figures.meshes.mesh import write_ply
@@ -45,7 +45,7 @@ def scene(tables: Tables, surface: Brushed, height: int) -> Scene:
     """Return one panel's scene."""
     bsdf = studio.measured(measured_file(tables, surface.spec))
     animal = {"type": "ply", "filename": str(kangaroo_file(tables.folder)), "bsdf": bsdf}
-    objects = {"kangaroo": animal, "floor": studio.plain(0.06)}
+    objects = {"kangaroo": animal, "floor": studio.plain(0.06)} | FEW_BOUNCES
     return studio.scene(studio.room(LIGHTS), CAMERA, height, objects)
 
 
@@ -67,7 +67,7 @@ FIGURE = Figure(
     number=7,
     caption="Interference renderings of kangaroos with the different surface roughnesses and thin film "
     "thicknesses.",
-    quality=Quality(height=430, samples=128),
+    quality=Quality(height=430, samples=100),
     render=render,
     findings=findings,
 )

@@ -14,16 +14,12 @@ from figures.figure import Figure, Quality
 from figures.gamut import whitened
 from figures.hue import Lab, lab
 from figures.pictures import exposed, labelled, stacked
-from figures.tables import MITSUBA_RANGE, Tables, colours, table_at_angles
+from figures.ridges import ANGLES_DEG, OTHERS, PAPER, PRESET, THICKNESSES_NM, WORDS
+from figures.tables import MITSUBA_RANGE, Tables
 from figures.wing_chart import wing_chart
-from nacreous import Spec
 
 FloatArray = NDArray[np.float64]
 
-PRESET = "paper/figure-8"
-THICKNESSES_NM = (80.0, 100.0, 120.0, 135.0)
-WORDS = ("violet", "blue", "yellow", "red")
-"""The paper's, from left to right."""
 VIEW = View(light_deg=26.0, camera_deg=26.0)
 """The stated geometry: the light 26 degrees from the vertical on one side, the view on the other."""
 OTHER_VIEWS = (View(8.0, 8.0), View(40.0, 40.0))
@@ -31,17 +27,6 @@ OTHER_VIEWS = (View(8.0, 8.0), View(40.0, 40.0))
 ALPHA = 0.3
 """Of the wings' facets: assumed; hues do not depend on it."""
 STOPS = -0.8
-ANGLES_DEG = np.arange(0.0, 76.0)
-
-
-def film_colours(thickness_nm: float, theta_deg: FloatArray) -> FloatArray:
-    """Return the linear colours of a wing's film at angles of incidence, (A, 3)."""
-    given = nacreous.preset(PRESET)
-    (pairs,) = given.model_dump(include={"stack"}, exclude_unset=True)["stack"]["layers"]
-    layers = [layer | {"thickness_nm": thickness_nm} for layer in pairs["layers"]]
-    stack = given.model_dump(include={"stack"}, exclude_unset=True)["stack"]
-    spec = Spec.from_document({"stack": stack | {"layers": [pairs | {"layers": layers}]}})
-    return colours(table_at_angles(spec, theta_deg))
 
 
 def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
@@ -49,7 +34,7 @@ def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
     views = sorted((VIEW, *OTHER_VIEWS), key=lambda view: view.facet_deg)
     rows = [labelled(_shown(rendering(tables, view, quality)), _caption(view)) for view in views]
     marked = [view.facet_deg for view in views]
-    chart = wing_chart(THICKNESSES_NM, ANGLES_DEG, film_colours, marked, rows[0].width)
+    chart = wing_chart(THICKNESSES_NM, ANGLES_DEG, PAPER.colours, marked, rows[0].width)
     return {"figure-8": stacked([*rows, chart])}
 
 
@@ -83,9 +68,15 @@ def findings(_: Tables) -> Iterator[str]:
     yield f"| ridge | the paper says | at {VIEW.facet_deg:g}°, as rendered | at 0° | the paper's word holds |"
     yield "|--:|---|---|---|---|"
     for thickness, word in zip(THICKNESSES_NM, WORDS, strict=True):
-        seen = [lab(colour) for colour in film_colours(thickness, ANGLES_DEG)]
+        seen = [lab(colour) for colour in PAPER.colours(thickness, ANGLES_DEG)]
         stated = seen[int(np.searchsorted(ANGLES_DEG, VIEW.facet_deg))]
         yield f"| {thickness:.0f} nm | {word} | {stated} | {seen[0]} | {_where(seen, word)} |"
+    yield ""
+    held = PAPER.words_held()
+    most = ANGLES_DEG[held == held.max()].astype(int)
+    yield f"Words that hold at once, at most: {held.max()}, at {most[0]}° to {most[-1]}°. "
+    others = max(structure.words_held().max() for structure in OTHERS)
+    yield f"With 1 to 12 pairs, or with one gap of 60 to 200 nm for all four wings: {others}."
 
 
 def _where(seen: list[Lab], word: str) -> str:
@@ -101,7 +92,7 @@ FIGURE = Figure(
     number=8,
     caption="Rendered biological iridescences of Morpho butterflies consisting of tree-like ridge structures "
     "with cuticle films of different thicknesses (left to right: 80 nm, 100 nm, 120 nm and 135 nm).",
-    quality=Quality(height=264, samples=128),
+    quality=Quality(height=264, samples=64),
     render=render,
     findings=findings,
 )

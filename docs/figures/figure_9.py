@@ -14,7 +14,7 @@ from figures.butterflies import View, row_scene
 from figures.figure import Figure, Quality
 from figures.gamut import whitened
 from figures.hue import lab
-from figures.lobe import lobe_of_file
+from figures.lobe import lobe_of_file, shown_width
 from figures.pictures import exposed, labelled, stacked
 from figures.tables import MITSUBA_RANGE, Tables, colours, table_at_angles
 from nacreous import Spec
@@ -96,7 +96,7 @@ def _model_line(tables: Tables, model: Model) -> str:
     lobe = lobe_of_file(measured_file(tables, model.spec))
     flat, normal = model.reflected(np.array([0.5, 1.0]))
     words = " | ".join(f"Y {_luminance(each):.3f}, {lab(each)}" for each in (normal, flat))
-    return f"| {model.name} | {lobe.x_deg:.1f}°, {lobe.y_deg:.1f}° | {words} |"
+    return f"| {model.name} | {shown_width(lobe.x_deg)}, {shown_width(lobe.y_deg)} | {words} |"
 
 
 def _luminance(rgb: FloatArray) -> float:
@@ -108,7 +108,7 @@ FIGURE = Figure(
     caption="Comparison of rendered biological iridescences of Morpho butterfly wings with 90nm cuticle "
     "layer thickness using Sun butterfly shader (Sun, 2006) (left) and our proposed multilayer interference "
     "model (right) respectively.",
-    quality=Quality(height=430, samples=128),
+    quality=Quality(height=430, samples=64),
     render=render,
     findings=findings,
 )

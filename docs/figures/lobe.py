@@ -28,6 +28,11 @@ class Lobe:
     y_deg: float
 
 
+def shown_width(width_deg: float) -> str:
+    """Return a width in words of a table; a lobe that does not fall to half above the horizon has none."""
+    return f"{width_deg:.1f}°" if width_deg < 2 * _OUT_DEG[-1] else f"over {width_deg:.0f}°"
+
+
 def lobe_of_file(file: Path) -> Lobe:
     """Measure a ``.bsdf``."""
     import mitsuba as mi
@@ -58,8 +63,10 @@ def _measured(f: Callable[[FloatArray, FloatArray], FloatArray]) -> Lobe:
 
 
 def _half_width_deg(values: FloatArray) -> float:
-    """Return the first angle at which values fall below half of the first."""
+    """Return the first angle at which values fall below half of the first; the last where they do not."""
     half = values[0] / 2
+    if values.min() >= half:
+        return float(_OUT_DEG[-1])
     at = int(np.argmax(values < half))
     share = (values[at - 1] - half) / (values[at - 1] - values[at])
     return float(_OUT_DEG[at - 1] + share * (_OUT_DEG[at] - _OUT_DEG[at - 1]))

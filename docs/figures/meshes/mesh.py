@@ -32,12 +32,6 @@ class Mesh:
     uvs: FloatArray
     faces: IntArray
 
-    @property
-    def welded_faces(self) -> IntArray:
-        """Faces over distinct positions: a seam of texture coordinates parts vertices, not the surface."""
-        _, place = np.unique(self.positions.round(9), axis=0, return_inverse=True)
-        return np.asarray(place).reshape(-1)[self.faces]
-
 
 def normalised(vectors: FloatArray) -> FloatArray:
     """Return vectors (…, 3) at length 1."""
