@@ -6,7 +6,7 @@ from figures.page import write_block
 from validation.comparison import Comparison
 from validation.comparisons import comparisons
 from validation.drawing import save
-from validation.page import IMAGES, PAGE
+from validation.page import IMAGES, OVERVIEW, PAGE, block, with_line
 
 
 def main() -> None:
@@ -25,6 +25,8 @@ def renew(comparison: Comparison[object]) -> None:
     sys.stderr.write(f"{comparison.name} ...\n")
     measured = comparison.measure()
     save(comparison.draw(measured), IMAGES / f"{comparison.name}.png", comparison.palette)
+    overview = with_line(block(OVERVIEW), comparison.title, comparison.line(measured))
+    write_block(PAGE, OVERVIEW, overview.splitlines())
     write_block(PAGE, comparison.name, comparison.numbers(measured).splitlines())
 
 

@@ -21,11 +21,14 @@ CHART = (
     ChartColour(180, "cyan"),
 )
 
-TITLE = "TiO₂ on titanium, D65, normal incidence"
+PICTURE_TITLE = "TiO₂ on titanium, D65, normal incidence"
 
 COMPARISON = Comparison(
     name="anodised-titanium",
-    measure=partial(named_chart.measure, TITLE, "anodised-titanium", CHART, 200),
+    title="Anodised titanium",
+    against="Diamanti et al. 2008, jewellers' charts",
+    measure=partial(named_chart.measure, PICTURE_TITLE, "anodised-titanium", CHART, 200),
+    headline=named_chart.headline,
     numbers=named_chart.numbers,
     draw=named_chart.draw,
 )

@@ -18,8 +18,12 @@ class Comparison(Generic[Measured]):
     ----------
     name : str
         That of its picture, and of its place in the page.
+    title, against : str
+        The heading in the page, and whose numbers Nacreous is compared with.
     measure : callable
         Computes everything that is shown.
+    headline : callable
+        Says it in a few words.
     numbers : callable
         Says it in Markdown.
     draw : callable
@@ -29,7 +33,14 @@ class Comparison(Generic[Measured]):
     """
 
     name: str
+    title: str
+    against: str
     measure: Callable[[], Measured]
+    headline: Callable[[Measured], str]
     numbers: Callable[[Measured], str]
     draw: Callable[[Measured], "Figure"]
     palette: int | None = None
+
+    def line(self, measured: Measured) -> str:
+        """Return the line of the table at the top of the page."""
+        return f"| {self.title} | {self.against} | {self.headline(measured)} |"

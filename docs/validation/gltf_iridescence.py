@@ -96,21 +96,23 @@ def _over_angle(film: Iridescence) -> FloatArray:
     return iridescent_reflectance(film, np.cos(np.radians(ANGLES_DEG)))
 
 
+def headline(films: list[Compared]) -> str:
+    """Say how many films the formula shows rightly, and how wrong it is at worst."""
+    alike = sum(each.apart(each.formula)[:2].max() < ALIKE for each in films)
+    worst = max(each.apart(each.formula).max() for each in films)
+    worst_fitted = max(each.apart(each.fitted).max() for each in films)
+    return (
+        f"{alike} of {len(films)} films within CIEDE2000 {ALIKE:.0f} at 0° and 45°; the worst is off by "
+        f"{worst:.0f}, with fitted parameters by {worst_fitted:.0f}"
+    )
+
+
 def numbers(films: list[Compared]) -> str:
     """Say how far apart the colours are."""
     angles = " | ".join(f"{angle}°:" for angle in STATED_DEG)
-    header = f"film | {angles} | {angles.replace('°', '°, fitted')}"
+    header = f"film, CIEDE2000 at | {angles} | {angles.replace('°', '°, fitted')}"
     rows = [" | ".join([each.film.label, *_cells(each)]) for each in films]
-    alike = sum(each.apart(each.formula)[:2].max() < ALIKE for each in films)
-    worst, worst_fitted = (
-        max(each.apart(model).max() for each, model in models)
-        for models in ([(e, e.formula) for e in films], [(e, e.fitted) for e in films])
-    )
-    summary = (
-        f"CIEDE2000 between the formula and the film. **{alike} of {len(films)} films are within {ALIKE:.0f} "
-        f"at 0° and 45°; the worst is off by {worst:.0f}, and by {worst_fitted:.0f} with fitted parameters.**"
-    )
-    return f"{summary}\n\n{table(header, rows)}"
+    return f"**{headline(films)}.**\n\n{table(header, rows)}"
 
 
 def _cells(film: Compared) -> list[str]:
@@ -162,4 +164,12 @@ def _draw_row(axes: "Axes", height: float, cells: list[str], colour: str) -> Non
         )
 
 
-COMPARISON = Comparison("gltf-iridescence", measure, numbers, draw)
+COMPARISON = Comparison(
+    name="gltf-iridescence",
+    title="glTF's iridescence",
+    against="the formula of KHR_materials_iridescence",
+    measure=measure,
+    headline=headline,
+    numbers=numbers,
+    draw=draw,
+)

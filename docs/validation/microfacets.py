@@ -127,6 +127,16 @@ def _in_plane(theta_deg: FloatArray) -> FloatArray:
     return np.stack([np.sin(theta), np.zeros_like(theta), np.cos(theta)], axis=-1)
 
 
+def headline(lobes: list[Lobe]) -> str:
+    """Say the largest difference of each distribution."""
+    largest = {name: rounded(max(_of(lobes, name))) for name in ("ggx", "beckmann")}
+    return f"f_r within {largest['ggx']} for GGX, {largest['beckmann']} for Beckmann, relatively"
+
+
+def _of(lobes: list[Lobe], distribution: str) -> list[float]:
+    return [lobe.differences.max() for lobe in lobes if lobe.distribution == distribution]
+
+
 def numbers(lobes: list[Lobe]) -> str:
     """Say how far apart both are."""
     header = "surface | median difference: | 99 of 100 within: | largest:"
@@ -174,4 +184,13 @@ def _dress(above: "Axes", below: "Axes") -> None:
     above.legend(frameon=False, fontsize=9, loc="upper left", labelcolor=INK)
 
 
-COMPARISON = Comparison("microfacets", measure, numbers, draw, palette=128)
+COMPARISON = Comparison(
+    name="microfacets",
+    title="Rough surfaces",
+    against="Mitsuba 3, `roughconductor`",
+    measure=measure,
+    headline=headline,
+    numbers=numbers,
+    draw=draw,
+    palette=128,
+)

@@ -128,11 +128,16 @@ def measure(title: str, preset: str, colours: tuple[ChartColour, ...], most_nm: 
 # ---- in words ----------------------------------------------------------------------------------------------
 
 
+def headline(chart: NamedChart) -> str:
+    """Say how many names hold."""
+    return f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm"
+
+
 def numbers(chart: NamedChart) -> str:
     """Say how many names hold, and where each does."""
-    offsets, kept = chart.offsets_nm, chart.kept
+    offsets = chart.offsets_nm
     summary = (
-        f"**{kept.sum()} of {kept.size} names hold within ±{TOLERANCE_NM:.0f} nm**; "
+        f"**{headline(chart)}**; "
         f"{(offsets == 0).sum()} hold at the very thickness of the chart, and the mean of all offsets is "
         f"{np.nanmean(np.abs(offsets)):.0f} nm."
     )

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from nacreous.optics.refractive_index import refractive_index
 from nacreous.tables.presets import preset
+from validation import named_chart
 from validation.appearance import LUMINANCE, lightness_chroma_hue, shown
 from validation.comparison import Comparison
 from validation.drawing import FAINT, INK, dress, figure, strip
@@ -41,6 +42,8 @@ INCH_NM = 25.4e6
 THICKEST_NM = 1250
 INDEX_AT_NM = 551.0
 TINT = "#a03c8c"
+APART_NM = 21.0
+"""Between two names in the picture."""
 
 
 @dataclass(frozen=True)
@@ -136,6 +139,16 @@ def measure() -> NewtonSeries:
     return NewtonSeries(n, thickness_nm, rgb / (rgb @ LUMINANCE).max())
 
 
+def headline(series: NewtonSeries) -> str:
+    """Say how near the tints are, and how many of Newton's names hold."""
+    apart = max(abs(path_nm / known_nm - 1) for known_nm, path_nm in _tints(series))
+    kept = series.newtons_chart.kept
+    return (
+        f"three tints within {100 * apart:.1f} %; {kept.sum()} of {kept.size} names hold within "
+        f"±{TOLERANCE_NM:.0f} nm"
+    )
+
+
 def numbers(series: NewtonSeries) -> str:
     """Say where the sensitive tints are, and how Newton's names fare."""
     header = (
@@ -145,8 +158,8 @@ def numbers(series: NewtonSeries) -> str:
     rows = [_row(series, order, *pair) for order, pair in enumerate(_tints(series), start=1)]
     chart = series.newtons_chart
     newton = (
-        f"**{chart.kept.sum()} of the {chart.kept.size} colours that Newton names in his first four orders "
-        f"hold within ±{TOLERANCE_NM:.0f} nm of his thickness**, the median offset is "
+        f"**{named_chart.headline(chart)}**, of the colours that Newton names in his first four orders; the "
+        f"median offset is "
         f"{np.nanmedian(np.abs(chart.offsets_nm)):.0f} nm; n = {series.n:.3f} at {INDEX_AT_NM:.0f} nm."
     )
     return f"{table(header, rows)}\n\n{newton} {_missed(chart)}"
@@ -191,16 +204,22 @@ _TITLE = {"size": 11, "weight": "bold", "color": INK}
 def _draw_colours(axes: "Axes", series: NewtonSeries) -> None:
     first, last = series.thickness_nm[[0, -1]]
     strip(axes, shown(series.rgb, float(series.rgb.max()))[None], first, last)
-    chart = series.newtons_chart
-    for colour, kept in zip(chart.colours, chart.kept, strict=True):
-        axes.plot([colour.thickness_nm] * 2, [1, 1.07], color=INK, lw=0.8, clip_on=False)
-        axes.text(
-            *(colour.thickness_nm, 1.1), colour.name, rotation=55, size=7.2, color=INK, ha="left",
-            va="bottom", rotation_mode="anchor", style="normal" if kept else "italic",
-        )  # fmt: skip
+    _draw_names(axes, series.newtons_chart)
     for end in _ends(series)[1:]:
         axes.axvline(end / (2 * series.n), color="white", lw=1.1, ls=(0, (3, 2)))
     dress(axes, "", "thickness of the film, nm")
+
+
+def _draw_names(axes: "Axes", chart: NamedChart) -> None:
+    """Write Newton's names above the strip, none nearer to the one before than can be read."""
+    place = -np.inf
+    for colour, kept in zip(chart.colours, chart.kept, strict=True):
+        place = max(colour.thickness_nm, place + APART_NM)
+        axes.plot([colour.thickness_nm, place], [1, 1.07], color=INK, lw=0.8, clip_on=False)
+        axes.text(
+            *(place, 1.1), colour.name, rotation=55, size=7.2, color=INK, ha="left", va="bottom",
+            rotation_mode="anchor", style="normal" if kept else "italic",
+        )  # fmt: skip
 
 
 def _ends(series: NewtonSeries) -> list[float]:
@@ -224,4 +243,12 @@ def _draw_luminance(axes: "Axes", series: NewtonSeries) -> None:
     dress(axes, "", r"path difference $2nd$, nm", "luminance")
 
 
-COMPARISON = Comparison("newton-series", measure, numbers, draw)
+COMPARISON = Comparison(
+    name="newton-series",
+    title="Newton's series in a soap film",
+    against="Michel-Lévy's sensitive tints, Newton 1704",
+    measure=measure,
+    headline=headline,
+    numbers=numbers,
+    draw=draw,
+)

@@ -4,6 +4,8 @@ from pathlib import Path
 
 PAGE = Path(__file__).parents[1] / "validation.md"
 IMAGES = Path(__file__).parents[1] / "images" / "validation"
+OVERVIEW = "overview"
+"""The name of the table at the top of the page."""
 
 
 def block(name: str) -> str:
@@ -13,6 +15,13 @@ def block(name: str) -> str:
     if not 0 <= begin < end:
         raise ValueError(f"expected <!-- {name}: begin --> and end in {PAGE.name}")
     return text[text.index("\n", begin) : end].strip()
+
+
+def with_line(overview: str, first_cell: str, line: str) -> str:
+    """Return a table in which a line is in the place of the one with its first cell, or at the end."""
+    lines = overview.splitlines()
+    renewed = [line if each.startswith(f"| {first_cell} |") else each for each in lines]
+    return "\n".join(renewed if line in renewed else [*lines, line])
 
 
 def table(header: str, rows: list[str]) -> str:

@@ -28,11 +28,14 @@ CHART = (
     ChartColour(600, "pink"),
 )
 
-TITLE = "SiO₂ on silicon, D65, normal incidence"
+PICTURE_TITLE = "SiO₂ on silicon, D65, normal incidence"
 
 COMPARISON = Comparison(
     name="silica-on-silicon",
-    measure=partial(named_chart.measure, TITLE, "silica-on-silicon", CHART, 700),
+    title="Oxide on silicon",
+    against="the colour chart of Pliskin and Conrad 1964",
+    measure=partial(named_chart.measure, PICTURE_TITLE, "silica-on-silicon", CHART, 700),
+    headline=named_chart.headline,
     numbers=named_chart.numbers,
     draw=named_chart.draw,
 )

@@ -21,6 +21,7 @@ CHARTS = [
     ("anodised-titanium", anodised_titanium, set()),
 ]
 """A preset, its comparison, and the thicknesses whose name does not hold."""
+NAMES = [name for name, _, _ in CHARTS]
 
 
 def look(preset_name: str, thickness_nm: FloatArray) -> FloatArray:
@@ -53,7 +54,7 @@ def lightness_chroma_hue(rgb: FloatArray) -> FloatArray:
     return np.stack([L, np.hypot(a, b), np.degrees(np.arctan2(b, a)) % 360], axis=-1)
 
 
-@pytest.mark.parametrize(("name", "module", "missing"), CHARTS, ids=lambda value: str(value)[:20])
+@pytest.mark.parametrize(("name", "module", "missing"), CHARTS, ids=NAMES)
 @pytest.mark.filterwarnings("ignore")  # colour-science's own
 def test_the_literatures_names_hold_within_20_nm(name: str, module: object, missing: set[int]) -> None:
     """Pliskin & Conrad 1964, Diamanti et al. 2008: each name is near its thickness, but for those stated."""
@@ -65,7 +66,7 @@ def test_the_literatures_names_hold_within_20_nm(name: str, module: object, miss
     assert without == missing
 
 
-@pytest.mark.parametrize(("name", "module", "missing"), CHARTS, ids=lambda value: str(value)[:20])
+@pytest.mark.parametrize(("name", "module", "missing"), CHARTS, ids=NAMES)
 @pytest.mark.filterwarnings("ignore")  # colour-science's own
 def test_the_hues_of_the_page_are_colour_sciences(name: str, module: object, missing: set[int]) -> None:
     """At the thicknesses of the chart: hue within 2 degrees, lightness and chroma within 1."""

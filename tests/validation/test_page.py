@@ -9,7 +9,7 @@ from PIL import Image
 
 from validation.comparison import Comparison
 from validation.comparisons import comparisons
-from validation.page import IMAGES, PAGE, block, rounded, table
+from validation.page import IMAGES, OVERVIEW, PAGE, block, rounded, table, with_line
 
 NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?(?:e-?\d+)?")
 MOST_BYTES = 150_000
@@ -24,6 +24,25 @@ def test_the_page_has_the_numbers_of_now(comparison: Comparison[Any], measured: 
     assert NUMBER.sub("#", written) == NUMBER.sub("#", found)
     pairs = zip(NUMBER.findall(written), NUMBER.findall(found), strict=True)
     assert [pair for pair in pairs if not agree(*pair)] == []
+
+
+@pytest.mark.parametrize("comparison", comparisons(), ids=lambda each: each.name)
+def test_the_overview_has_them_too(comparison: Comparison[Any], measured: Callable[[str], Any]) -> None:
+    """Each comparison has its line, with the numbers of now, and its heading."""
+    found = comparison.line(measured(comparison.name))
+    written = next(
+        line for line in block(OVERVIEW).splitlines() if line.startswith(f"| {comparison.title} |")
+    )
+    assert NUMBER.sub("#", written) == NUMBER.sub("#", found)
+    assert all(agree(*pair) for pair in zip(NUMBER.findall(written), NUMBER.findall(found), strict=True))
+    assert f"\n## {comparison.title}\n" in PAGE.read_text(encoding="utf-8")
+
+
+def test_a_line_of_a_table_is_renewed_or_added() -> None:
+    """The first cell says which."""
+    overview = "| a | b |\n|---|---|\n| one | 1 |"
+    assert with_line(overview, "one", "| one | 2 |") == "| a | b |\n|---|---|\n| one | 2 |"
+    assert with_line(overview, "two", "| two | 2 |") == f"{overview}\n| two | 2 |"
 
 
 def agree(written: str, found: str) -> bool:
