@@ -145,7 +145,7 @@ def _contents(answer: Mapping[str, Any]) -> Inline:
     return [
         *words(f" {types}" if types else ""),
         *documents,
-        *words(f" Headers: {headers}." if headers else ""),
+        *words(f"; with the header {headers}" if headers else ""),
     ]
 
 
