@@ -38,7 +38,8 @@ SERVICE = "http://localhost:8000"
 """Where the pages say that a service is; blocks that name it run against one on a port that is free."""
 
 _BLOCK = re.compile(
-    r"(?P<above>[^\n]*)\n(?P<indent> *)```(?P<language>\w*)\n(?P<text>.*?)\n(?P=indent)```", re.DOTALL
+    r"^(?P<indent> *)(?P<fence>`{3,})(?P<language>[^`\n]*)\n(?P<text>.*?)\n?^(?P=indent)(?P=fence) *$",
+    re.MULTILINE | re.DOTALL,
 )
 _LINK = re.compile(r"\]\((?!https?:)([^)#]+)(?:#[^)]*)?\)")
 _FILE = re.compile(r"# (\S+\.toml)\n")
@@ -62,11 +63,16 @@ class Block:
 
 def blocks(page: Path) -> list[Block]:
     """Return the blocks of a page, those of directives aside."""
-    found = _BLOCK.finditer(page.read_text(encoding="utf-8"))
+    text = page.read_text(encoding="utf-8")
     return [
-        Block(match["language"], textwrap.dedent(f"{match['indent']}{match['text']}"), match["above"].strip())
-        for match in found
+        Block(match["language"].strip(), textwrap.dedent(match["text"]), _line_above(text, match.start()))
+        for match in _BLOCK.finditer(text)
+        if not match["language"].startswith("{")
     ]
+
+
+def _line_above(text: str, start: int) -> str:
+    return text[:start].removesuffix("\n").rpartition("\n")[2].strip()
 
 
 def runnable_blocks(page: Path) -> list[Block]:
