@@ -129,8 +129,12 @@ def measure(title: str, preset: str, colours: tuple[ChartColour, ...], most_nm: 
 
 
 def headline(chart: NamedChart) -> str:
-    """Say how many names hold."""
-    return f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm"
+    """Say how many names hold, and how far off those are at most."""
+    farthest = np.abs(chart.offsets_nm[chart.kept]).max()
+    return (
+        f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm, the farthest of "
+        f"them {farthest:.0f} nm off"
+    )
 
 
 def numbers(chart: NamedChart) -> str:
@@ -138,8 +142,8 @@ def numbers(chart: NamedChart) -> str:
     offsets = chart.offsets_nm
     summary = (
         f"**{headline(chart)}**; "
-        f"{(offsets == 0).sum()} hold at the very thickness of the chart, and the mean of all offsets is "
-        f"{np.nanmean(np.abs(offsets)):.0f} nm."
+        f"{(offsets == 0).sum()} hold at the very thickness of the chart, and the offsets found "
+        f"have a mean of {np.nanmean(np.abs(offsets)):.0f} nm."
     )
     header = (
         "chart, nm: | name in the chart | hue words it may be | computed there | h_ab, °: | C*: | offset, nm:"
