@@ -117,7 +117,7 @@ def row_scene(folder: Path, films: Sequence[Scene], view: View, height: int) -> 
 
 
 def captioned(row: Image.Image, text: str) -> Image.Image:
-    """Return a row with a line under it, in a size for its width: `labelled` goes by the height of a panel."""
+    """Return a row with a line under it, in a size for its width; `labelled` goes by a panel's height."""
     size = max(9, round(row.width / 85))
     font = ImageFont.truetype(findfont(FontProperties(family="DejaVu Sans")), size)
     picture = Image.new("RGB", (row.width, row.height + 2 * size), PAPER)
