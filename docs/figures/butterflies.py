@@ -10,11 +10,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.font_manager import FontProperties, findfont
 from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
 
 from figures.meshes.mesh import write_ply
 from figures.meshes.pigment import wing_pigment
 from figures.meshes.wing import WINGS, Side, body, wing
+from figures.pictures import INK, PAPER
 from figures.studio import Scene
 
 FloatArray = NDArray[np.float64]
@@ -111,6 +114,16 @@ def row_scene(folder: Path, films: Sequence[Scene], view: View, height: int) -> 
         "light": lamp(view),
         "ground": ground(),
     } | insects
+
+
+def captioned(row: Image.Image, text: str) -> Image.Image:
+    """Return a row with a line under it, in a size for its width; `labelled` goes by a panel's height."""
+    size = max(9, round(row.width / 85))
+    font = ImageFont.truetype(findfont(FontProperties(family="DejaVu Sans")), size)
+    picture = Image.new("RGB", (row.width, row.height + 2 * size), PAPER)
+    picture.paste(row)
+    ImageDraw.Draw(picture).text((row.width / 2, row.height + size), text, fill=INK, font=font, anchor="mm")
+    return picture
 
 
 def camera(view: View, count: int, height: int) -> Scene:

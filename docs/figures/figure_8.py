@@ -9,11 +9,11 @@ from PIL import Image
 
 import nacreous
 from figures import studio
-from figures.butterflies import View, row_scene
+from figures.butterflies import View, captioned, row_scene
 from figures.figure import Figure, Quality
 from figures.gamut import whitened
 from figures.hue import Lab, lab
-from figures.pictures import exposed, labelled, stacked
+from figures.pictures import exposed, stacked
 from figures.ridges import ANGLES_DEG, OTHERS, PAPER, PRESET, THICKNESSES_NM, WORDS
 from figures.tables import MITSUBA_RANGE, Tables
 from figures.wing_chart import wing_chart
@@ -32,7 +32,7 @@ STOPS = -0.8
 def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
     """Render the four butterflies, and the chart of their colours over the angle under them."""
     views = sorted((VIEW, *OTHER_VIEWS), key=lambda view: view.facet_deg)
-    rows = [labelled(_shown(rendering(tables, view, quality)), _caption(view)) for view in views]
+    rows = [captioned(_shown(rendering(tables, view, quality)), _caption(view)) for view in views]
     marked = [view.facet_deg for view in views]
     chart = wing_chart(THICKNESSES_NM, ANGLES_DEG, PAPER.colours, marked, rows[0].width)
     return {"figure-8": stacked([*rows, chart])}

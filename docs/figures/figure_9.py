@@ -10,12 +10,12 @@ from PIL import Image
 import nacreous
 from figures import studio
 from figures.brushed import RANGE_NM, measured_file
-from figures.butterflies import View, row_scene
+from figures.butterflies import View, captioned, row_scene
 from figures.figure import Figure, Quality
 from figures.gamut import whitened
 from figures.hue import lab
 from figures.lobe import lobe_of_file, shown_width
-from figures.pictures import exposed, labelled, stacked
+from figures.pictures import exposed, stacked
 from figures.tables import MITSUBA_RANGE, Tables, colours, table_at_angles
 from nacreous import Spec
 
@@ -62,7 +62,7 @@ OURS = Model(
 def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
     """Render both wings in both views."""
     rows = [
-        labelled(exposed(whitened(rendering(tables, view, quality)), stops), _caption(view))
+        captioned(exposed(whitened(rendering(tables, view, quality)), stops), _caption(view))
         for view, stops in zip(VIEWS, STOPS, strict=True)
     ]
     return {"figure-9": stacked(rows)}
