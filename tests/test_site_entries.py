@@ -8,11 +8,11 @@ from importlib import import_module
 from typing import Any
 
 import pytest
+
+from built_site import ROOT, Page
 from nacreous_site.json_schema import unit_of
 from nacreous_site.mathml import formula
 from nacreous_site.repository_links import site_links
-
-from built_site import ROOT, Page
 
 ODD_TEXT = """*stars* and **more**, _lines_, [a link](nowhere.md), ![a picture](none.png), <b>tags</b> &
 &amp;, {role}`text`, |pipes|, $dollars$, a \\ at the end \\, # no heading,
