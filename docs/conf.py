@@ -12,6 +12,8 @@ author = "The Nacreous contributors"
 copyright = author  # noqa: A001 - the name that Sphinx has for it
 html_title = "Nacreous"
 language = "en"
+smartquotes_action = "q"  # quotes alone: two hyphens begin an option
+toc_object_entries_show_parents = "hide"
 
 extensions = [
     "myst_parser",

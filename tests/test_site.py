@@ -136,8 +136,10 @@ def test_the_reference_has_every_command_and_option(site: Site) -> None:
     for words in commands():
         section = "-".join(["cli", *words])
         shown = "".join(plain(entry.text).replace(" ", "") for entry in entries if entry.section == section)
+        page = plain(site.pages["reference/cli.html"].text)
         help_ = _MARKS.sub(r"\1", program(*words, "--help").replace("`", ""))
-        _, _, listed = help_.partition("Arguments:" if "Arguments:" in help_ else "Options:")
+        usage, _, listed = help_.partition("Arguments:" if "Arguments:" in help_ else "Options:")
+        assert plain(usage.removeprefix("Usage: ").partition("\n")[2]) in page, words
         for line in listed.partition("Commands:")[0].replace("--help", "").splitlines():
             for word in line.split():
                 assert word in shown or word in _OF_HELP, (words, line, word)
