@@ -240,6 +240,16 @@ def test_figure_4_is_not_redder() -> None:
     assert_told("Words about the figures", *paper.equation_9(2 * 2.0 * 450, (2, 3)), digits=0)
 
 
+def test_the_overview_has_the_numbers_of_the_sections() -> None:
+    """Each row links a section, and what it says of the effect is in there."""
+    rows = re.findall(r"\| \[[^\]]+\]\(#([\w-]+)\) \|[^|]+\|([^|]+)\|", PAGE)
+    anchors = {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-"): title for title in SECTIONS}
+    assert {anchor for anchor, _ in rows} == set(anchors)
+    for anchor, effect in rows:
+        for number in re.findall(r"-?\d+\.\d+|\d+°", effect):
+            assert number in SECTIONS[anchors[anchor]], (anchor, number)
+
+
 def test_every_erratum_names_its_tests() -> None:
     """A test that the page names is in this file, or in the file that it links."""
     texts = (Path(__file__), ROOT / "tests" / "kernels" / "test_paper.py")
