@@ -109,14 +109,14 @@ def multilayer(
     cos = np.sqrt(1 - (n[0] / n) ** 2 * (1 - cos_theta**2))  # Snell's law
     layers = zip(n[1:-1], cos[1:-1], thickness_nm, strict=True)
     delta = [4 * np.pi / wavelength_nm * n_j * H_j * cos_j for n_j, cos_j, H_j in layers]
-    s, p = (
-        Multilayer(
-            *map(list, zip(*(of(*n[j : j + 2], *cos[j : j + 2]) for j in range(n.size - 1)), strict=True)),
-            delta,
-        )
-        for of in (equation_10_perpendicular, equation_10_parallel)
-    )
-    return s, p
+    boundaries = [(*n[j : j + 2], *cos[j : j + 2]) for j in range(n.size - 1)]
+    s = [equation_10_perpendicular(*boundary) for boundary in boundaries]
+    p = [equation_10_parallel(*boundary) for boundary in boundaries]
+    return _multilayer(s, delta), _multilayer(p, delta)
+
+
+def _multilayer(boundaries: Sequence[tuple[Complex, Complex]], delta: list[Complex]) -> Multilayer:
+    return Multilayer([r for r, _ in boundaries], [t for _, t in boundaries], delta)
 
 
 def equation_4(m: Multilayer) -> Complex:
