@@ -23,7 +23,7 @@ ROWS = tuple(
     for roughness in (0.1, 0.2)
 )
 STOPS = 1.2
-CAMERA = Camera(origin=(0.5, -9.0, 4.0), target=(0.03, 0.0, 0.86), fov_deg=13.8, aspect=1.38)
+CAMERA = Camera(origin=(0.5, -9.0, 4.0), target=(0.05, 0.0, 0.86), fov_deg=14.3, aspect=1.38)
 LIGHTS = (
     SoftBox(222, 46, 26, 34, 9.0, edge_deg=6),
     SoftBox(110, 34, 20, 50, 7.0, edge_deg=6),
@@ -66,7 +66,7 @@ FIGURE = Figure(
     number=6,
     caption="Interference renderings of teapots with the different surface roughnesses and thin film "
     "thicknesses.",
-    quality=Quality(height=348, samples=100),
+    quality=Quality(height=348, samples=64),
     render=render,
     findings=findings,
 )

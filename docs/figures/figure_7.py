@@ -67,7 +67,7 @@ FIGURE = Figure(
     number=7,
     caption="Interference renderings of kangaroos with the different surface roughnesses and thin film "
     "thicknesses.",
-    quality=Quality(height=430, samples=100),
+    quality=Quality(height=430, samples=64),
     render=render,
     findings=findings,
 )
