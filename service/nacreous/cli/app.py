@@ -19,7 +19,7 @@ from nacreous.cli.tabulate import tabulate
 from nacreous.cli.verify import verify
 from nacreous.errors import NacreousError
 
-__all__ = ["main"]
+__all__ = ["main", "make_app"]
 
 _COMMANDS = (tabulate, preview, presets, schema, devices, doctor, verify, serve)
 
@@ -27,7 +27,7 @@ _COMMANDS = (tabulate, preview, presets, schema, devices, doctor, verify, serve)
 def main() -> None:
     """Run the program; every error that is foreseen ends here, as one message and an exit code."""
     try:
-        code = _app()(sys.argv[1:] or ["--help"], prog_name="nacreous", standalone_mode=False)
+        code = make_app()(sys.argv[1:] or ["--help"], prog_name="nacreous", standalone_mode=False)
     except (TyperException, NacreousError, OSError, KeyboardInterrupt) as error:
         report(error)
         code = exit_code(error)
@@ -37,7 +37,8 @@ def main() -> None:
     sys.exit(code)
 
 
-def _app() -> typer.Typer:
+def make_app() -> typer.Typer:
+    """Return the program with its commands."""
     app = typer.Typer(
         name="nacreous",
         help="Tabulated BSDFs of thin-film interference, for renderers without spectral interference.",

@@ -21,7 +21,7 @@ def presets(
     A preset that is printed is a spec to begin your own with; a service has it as JSON.
     """
     from nacreous.cli.listing import print_columns, print_json_lines
-    from nacreous.tables.presets import preset, preset_names
+    from nacreous.tables.presets import preset, preset_names, preset_text
 
     if server := server_of(context):
         from nacreous.cli.remote_listings import print_preset, print_presets
@@ -32,17 +32,7 @@ def presets(
             print_preset(server, name)
         return
     if name is not None:
-        print(preset(name).model_dump_json() if as_json else _text(name))
+        print(preset(name).model_dump_json() if as_json else preset_text(name))
         return
     rows = [{"name": known, "description": preset(known).description} for known in preset_names()]
     (print_json_lines if as_json else print_columns)(rows)
-
-
-def _text(name: str) -> str:
-    """Return a preset as it was written, with its comments; raises `SpecError` where there is none."""
-    from importlib.resources import files
-
-    from nacreous.tables.presets import preset
-
-    preset(name)
-    return files("nacreous.optics").joinpath("presets", f"{name}.toml").read_text(encoding="utf-8").rstrip()

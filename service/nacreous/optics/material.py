@@ -56,7 +56,15 @@ PositiveWavelength = Annotated[Number, Field(gt=0)]
 
 
 class NamedMaterial(StrictModel):
-    """A material of the project's own library, or a refractiveindex.info page ``shelf/book/page``."""
+    """A material of the project's own library, or a refractiveindex.info page ``shelf/book/page``.
+
+    Parameters
+    ----------
+    name : str
+        A name that ``nacreous materials`` lists, or a page such as ``main/Ag/Johnson``.
+    extrapolate : str
+        Beyond the wavelengths of its data ``"refuse"`` a table, or ``"hold"`` the value at the nearer end.
+    """
 
     name: str = Field(min_length=1, max_length=200)
     extrapolate: Extrapolation = "refuse"
@@ -75,20 +83,40 @@ class NamedMaterial(StrictModel):
         cls, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
         """Describe both spellings: the bare name and the table."""
-        table = handler.resolve_ref_schema(handler(schema))
+        table = handler.resolve_ref_schema(super().__get_pydantic_json_schema__(schema, handler))
         bare = dict(table["properties"]["name"]) | {"title": "Material name"}
         return {"anyOf": [bare, table], "description": table["description"]}
 
 
 class ConstantMaterial(StrictModel):
-    """The same n + ik at every wavelength."""
+    """The same n + ik at every wavelength.
+
+    Parameters
+    ----------
+    n : float
+        Refractive index.
+    k : float
+        Extinction coefficient: positive where the material absorbs.
+    """
 
     n: RealIndex
     k: Extinction = 0.0
 
 
 class TabulatedMaterial(StrictModel):
-    """n and k at ascending wavelengths, linear between them; k is 0 where it is left out."""
+    """n and k at ascending wavelengths, linear between them.
+
+    Parameters
+    ----------
+    wavelength_nm : tuple of float
+        Vacuum wavelengths of the samples, ascending.
+    n : tuple of float
+        Refractive index at each of them, 0.001 to 1000.
+    k : tuple of float, optional
+        Extinction coefficient at each of them, 0 to 1000; 0 where it is left out.
+    extrapolate : str
+        Beyond the wavelengths ``"refuse"`` a table, or ``"hold"`` the value at the nearer end.
+    """
 
     wavelength_nm: Annotated[tuple[Number, ...], Field(min_length=2, max_length=65_536), AsTuple]
     n: Annotated[tuple[Number, ...], AsTuple]
@@ -105,7 +133,19 @@ class TabulatedMaterial(StrictModel):
 
 
 class CauchyMaterial(StrictModel):
-    """n = A + B/λ² + C/λ⁴ with λ in micrometres and a constant k, known over `range_nm`."""
+    """n = A + B/λ² + C/λ⁴ with λ in micrometres and a constant k, known over `range_nm`.
+
+    Parameters
+    ----------
+    cauchy : tuple of float
+        A, B in µm² and C in µm⁴; what is left out is 0.
+    k : float
+        Extinction coefficient.
+    range_nm : tuple of float, optional
+        First and last vacuum wavelength at which the formula holds; any, without it.
+    extrapolate : str
+        Beyond `range_nm` ``"refuse"`` a table, or ``"hold"`` the value at the nearer end.
+    """
 
     cauchy: Annotated[tuple[Number, ...], Field(min_length=1, max_length=3), AsTuple]
     k: Extinction = 0.0
@@ -119,7 +159,17 @@ class CauchyMaterial(StrictModel):
 
 
 class SellmeierCoefficients(StrictModel):
-    """n² = 1 + constant + Σ b λ² / (λ² - c_um2) with λ in micrometres."""
+    """n² = 1 + constant + Σ b λ² / (λ² - c_um2) with λ in micrometres.
+
+    Parameters
+    ----------
+    b : tuple of float
+        Strengths of the resonances.
+    c_um2 : tuple of float
+        Squares of their wavelengths, as many as `b` has.
+    constant : float
+        What resonances far away add.
+    """
 
     b: Annotated[tuple[Number, ...], Field(min_length=1, max_length=16), AsTuple]
     c_um2: Annotated[tuple[Number, ...], AsTuple]
@@ -134,7 +184,19 @@ class SellmeierCoefficients(StrictModel):
 
 
 class SellmeierMaterial(StrictModel):
-    """A Sellmeier formula and a constant k, known over `range_nm`."""
+    """A Sellmeier formula and a constant k, known over `range_nm`.
+
+    Parameters
+    ----------
+    sellmeier : SellmeierCoefficients
+        The formula's coefficients.
+    k : float
+        Extinction coefficient.
+    range_nm : tuple of float, optional
+        First and last vacuum wavelength at which the formula holds; any, without it.
+    extrapolate : str
+        Beyond `range_nm` ``"refuse"`` a table, or ``"hold"`` the value at the nearer end.
+    """
 
     sellmeier: SellmeierCoefficients
     k: Extinction = 0.0
@@ -152,6 +214,15 @@ class Mixture(StrictModel):
 
     They are spheres by the rules ``"bruggeman"`` and ``"maxwell-garnett"``, and by ``"lamellar"`` upright
     lamellae, such as ridges on a wing: see `nacreous.optics.effective_medium`.
+
+    Parameters
+    ----------
+    host, inclusion : Material
+        One of the two materials; it may be a mixture itself, four deep at most.
+    fraction : float
+        Share of the inclusions in the volume.
+    rule : str
+        How both make one index: ``"bruggeman"``, ``"maxwell-garnett"`` or ``"lamellar"``.
     """
 
     host: "Material"

@@ -28,8 +28,9 @@ class Layer(StrictModel):
     Parameters
     ----------
     material : Material
+        What it consists of.
     thickness_nm : float
-        0, for a layer that is absent, or 1e-6 to 1e8.
+        Its thickness: 1e-6 to 1e8, or 0 for a layer that is absent.
     thickness_sigma_nm : float
         Standard deviation of the thickness over the surface, at most a fifth of it; R and T are averaged.
     coherent : bool
@@ -76,7 +77,15 @@ def _member(value: object) -> object:
 
 
 class Group(StrictModel):
-    """A periodic group: its layers, in order, `repeat` times."""
+    """A periodic group: its layers, in order, `repeat` times.
+
+    Parameters
+    ----------
+    repeat : int
+        How often the layers stand there; a thousand times cost about twice as much as once.
+    layers : tuple of Layer
+        One period, from the incident medium inwards; all of them coherent, and none a group itself.
+    """
 
     repeat: Annotated[int, Field(ge=1, le=MAX_REPEAT)]
     layers: Annotated[
@@ -128,7 +137,10 @@ class Stack(StrictModel):
 
     Parameters
     ----------
-    incident, substrate : Material
+    incident : Material
+        The half-space that the light comes from; all angles are in it.
+    substrate : Material
+        The half-space below the layers.
     layers : tuple of Layer or Group
         From the incident medium inwards; 1 to 64 layers, a group's members counted once.
     """

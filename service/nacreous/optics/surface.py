@@ -97,13 +97,15 @@ class Surface(StrictModel):
     alpha_x, alpha_y : float, optional
         Roughness along x and y, 0.001 to 1; y is x where it is left out.
     exponent_x, exponent_y : float, optional
-        The same as exponents, 0 to 1,999,998: exponent = 2 / alpha² - 2.
+        Roughness along x and y as exponents, 0 to 1,999,998: exponent = 2 / alpha² - 2.
     masking : str
         ``"v-cavity"``, the paper's equation 13 (Torrance and Sparrow 1967), ``"smith"``, height-correlated
         (Heitz 2014, equation 99), or ``"smith-separable"`` (Walter et al. 2007, equation 23). ``"phong"`` has
         ``"v-cavity"`` alone.
-    specular_weight, diffuse_weight : float
-        The paper's c_b and c_a in its equation 12, 0 to 1000.
+    specular_weight : float
+        Factor on the light of the facets: the paper's c_b in its equation 12, 0 to 1000.
+    diffuse_weight : float
+        Factor on the diffuse term: the paper's c_a in its equation 12, 0 to 1000.
     diffuse_reflectance : float
         Albedo of the diffuse term, 0 to 1.
     multiple_scattering : str

@@ -14,10 +14,12 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Field,
+    GetJsonSchemaHandler,
     ValidatorFunctionWrapHandler,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError
 
 __all__ = [
     "REFUSED",
@@ -128,3 +130,18 @@ class StrictModel(BaseModel):
         remedy = did_you_mean(str(unknown[0]), cls.model_fields)
         field = str(unknown[0]).encode("utf-8", "backslashreplace").decode()
         raise refusal(f"one of the fields {known}", "an unknown field", remedy, field=field)
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Describe the value and its fields in the words of its docstring."""
+        from nacreous.optics.documented import field_descriptions, summary
+
+        reference = handler(schema)
+        described = handler.resolve_ref_schema(reference)
+        docstring = cls.__doc__ or ""
+        described["description"] = summary(docstring)
+        for name, text in field_descriptions(docstring).items():
+            described["properties"][name]["description"] = text
+        return reference

@@ -64,6 +64,17 @@ class Range(StrictModel):
     """Equally spaced values from `start`, by `step` or by `count`.
 
     A range by count ends at `stop`. A range by step ends at the last step that does not pass `stop`.
+
+    Parameters
+    ----------
+    start : float
+        First value.
+    stop : float
+        Where the values end; more than `start`.
+    step : float, optional
+        Distance from one value to the next; it or `count`.
+    count : int, optional
+        Number of values, both ends among them; it or `step`.
     """
 
     start: Number

@@ -7,7 +7,7 @@ from nacreous.errors import SpecError
 from nacreous.optics.value import did_you_mean, shown
 from nacreous.tables.spec import Spec
 
-__all__ = ["load", "preset", "preset_names"]
+__all__ = ["load", "preset", "preset_names", "preset_text"]
 
 _SUFFIXES = (".toml", ".json")
 
@@ -33,6 +33,12 @@ def preset(name: str, overrides: Iterable[str] = ()) -> Spec:
         remedy = did_you_mean(name, preset_names(), otherwise="`nacreous presets` lists them")
         raise SpecError("", "the name of a preset", shown(name), remedy)
     return Spec.from_file(_FOLDER / f"{name}.toml", overrides)
+
+
+def preset_text(name: str) -> str:
+    """Return a preset as it was written, comments and all; raises `SpecError` where there is none."""
+    preset(name)
+    return (_FOLDER / f"{name}.toml").read_text(encoding="utf-8").rstrip()
 
 
 def load(spec_or_preset: str | Path, overrides: Iterable[str] = ()) -> Spec:

@@ -71,8 +71,10 @@ class ColourSpec(StrictModel):
 
     Parameters
     ----------
-    illuminant, observer : str
-        Names as colour-science has them; they are looked up where a colour is computed.
+    illuminant : str
+        The light under which the film is seen, by colour-science's name of it, such as ``D65`` or ``A``.
+    observer : str
+        The colour-matching functions, by colour-science's name of them.
     space : str
         The linear RGB space of colour tables, or XYZ.
     """
@@ -103,14 +105,22 @@ class Spec(StrictModel):
 
     Parameters
     ----------
-    name, description, source : str
-        Labels: what it is, what it shows, and whose numbers it has. They are not part of a table's id.
+    name : str
+        A label: what it is. Labels are not part of a table's id.
+    description : str
+        A label: what it shows.
+    source : str
+        A label: whose numbers it has.
     stack : Stack
+        The film: its layers, and what lies in front of them and behind.
     surface : Surface, optional
         Without it the film is ideally smooth, or as rough as the table's roughness axis says.
     table : TableSpec
+        What is tabulated, over which axes.
     colour : ColourSpec
+        How spectra become colours.
     accuracy : AccuracySpec
+        How exact the table is to be.
 
     Examples
     --------

@@ -1,20 +1,31 @@
 """Variables of the environment that look like settings, and are none: a slip of the keyboard is told."""
 
 import difflib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 
 from nacreous.web.settings import Settings
 
-__all__ = ["KNOWN", "unknown_variables"]
+__all__ = ["ELSEWHERE", "KNOWN", "unknown_variables"]
 
 _PREFIX = "NACREOUS_"
-_ELSEWHERE = (
-    *("NACREOUS_BYTE_BUDGET", "NACREOUS_DEVICE"),  # of every command
-    *("NACREOUS_SERVER", "NACREOUS_SERVER_KEY"),  # of the commands that ask a service
-    *("NACREOUS_WORKER_MEMORY", "NACREOUS_WORKER_PARENT"),  # of the worker process
-    *("NACREOUS_SOAK", "NACREOUS_BLENDER_PYTHON"),  # of the tests
+ELSEWHERE: Mapping[str, str] = MappingProxyType(
+    {
+        "NACREOUS_BYTE_BUDGET": "The most memory that a table may take, such as `500M` or `4GiB`; 2 GiB "
+        "without it. Of every command.",
+        "NACREOUS_DEVICE": "The OpenCL device: `0:0`, as `nacreous devices` lists it, or a part of its name; "
+        "PoCL on the CPU without it. Of every command.",
+        "NACREOUS_SERVER": "Address of a service that computes in place of this computer. Of the commands "
+        "that ask a service.",
+        "NACREOUS_SERVER_KEY": "The key that this service wants.",
+        "NACREOUS_WORKER_MEMORY": "Bytes of address space of the worker process; the service sets it.",
+        "NACREOUS_WORKER_PARENT": "Process whose end ends the worker; the service sets it.",
+        "NACREOUS_SOAK": "Set, it lets the tests inject faults as often as the promises say.",
+        "NACREOUS_BLENDER_PYTHON": "Interpreter that has Blender's module, for the tests.",
+    }
 )
-KNOWN = (*(f"{_PREFIX}{name.upper()}" for name in Settings.model_fields), *_ELSEWHERE)
+"""The variables that are no settings of the service, and what each says."""
+KNOWN = (*(f"{_PREFIX}{name.upper()}" for name in Settings.model_fields), *ELSEWHERE)
 """Every variable that some part of Nacreous reads."""
 
 _FOREIGN = ("NACREOUS_SERVICE_", "NACREOUS_PORT_")

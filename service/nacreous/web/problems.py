@@ -26,6 +26,7 @@ from nacreous.errors import (
     StoreError,
     UnavailableError,
 )
+from nacreous.web.problem_kinds import PREFIX
 
 __all__ = ["MAX_BYTES", "MEDIA_TYPE", "Problem", "ProblemError", "problem_of"]
 
@@ -70,7 +71,7 @@ class Problem:
     def _document(self, most: int) -> dict[str, object]:
         texts = {"detail": self.detail, **self.facts}
         return {
-            "type": f"urn:nacreous:problem:{self.kind}",
+            "type": f"{PREFIX}{self.kind}",
             "title": self.status.phrase,
             "status": self.status.value,
             **{name: _shortened(text, most) for name, text in texts.items() if text},

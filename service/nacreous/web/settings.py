@@ -63,7 +63,8 @@ class Settings(BaseSettings):
     port: int = Field(8000, ge=0, le=65_535, description="Port to listen on; 0 for one that is free.")
     store: str = Field(
         default_factory=_default_store,
-        description="Folder or fsspec URL, such as s3://bucket/prefix, of finished tables.",
+        description="Folder or fsspec URL, such as s3://bucket/prefix, of finished tables; a folder below "
+        "the user's data without it.",
     )
     store_quota: int | None = Field(
         None,
