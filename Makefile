@@ -14,7 +14,7 @@ BIN := $(VENV)/bin
 export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 PIP_INSTALL := -m pip --disable-pip-version-check --no-input install --quiet
 
-.PHONY: help run serve page test soak check bench docs clean
+.PHONY: help run serve page test soak check bench docs figures pictures clean
 .DELETE_ON_ERROR:
 
 help:
@@ -23,7 +23,9 @@ help:
 	@echo 'make serve   run the HTTP service and its page on http://localhost:8000'
 	@echo 'make test    run all tests'
 	@echo 'make check   look at style, types and layers'
-	@echo 'make docs    run what the documentation shows, make its pictures anew'
+	@echo 'make docs    build the documentation into build/site'
+	@echo 'make figures render the figures of the paper, compare with the numbers of others'
+	@echo 'make pictures draw the other pictures of the documentation anew'
 	@echo 'make soak    inject faults as often as the promises say, for an hour or so'
 	@echo 'make bench   measure against other programs, write docs/benchmarks.md'
 	@echo 'make clean   remove what the others made'
@@ -53,9 +55,18 @@ check: $(VENV)/.group-check
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
 
-docs: page $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(BLENDER_VENV)/.bpy
-	$(BIN)/python -m pytest tests/test_documentation.py
+docs: $(VENV)/.group-docs
+	$(BIN)/python -m sphinx -W --keep-going -n -q docs build/site
+	@echo 'To read it: $(BIN)/python -m http.server -d build/site'
+
+figures: $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.node
+	PYTHONPATH=docs:tests $(BIN)/python -m figures
+	PYTHONPATH=docs:tests $(BIN)/python -m validation
+
+pictures: page $(VENV)/.group-test $(VENV)/.llvm $(VENV)/.drawing $(VENV)/.web $(BLENDER_VENV)/.bpy
 	$(BIN)/python docs/make_images.py
+	PYTHONPATH=docs $(BIN)/python docs/make_gallery.py
+	PYTHONPATH=tests:docs $(BIN)/python docs/make_tutorial_images.py
 	PYTHONPATH=tests $(BIN)/python docs/make_page_image.py
 	PYTHONPATH=tests $(BIN)/python docs/make_client_images.py
 

@@ -1,6 +1,6 @@
 """Make the pictures of the clients' pages, each by the renderer or the browser that its client is tested in.
 
-`make docs`, or run this file with PYTHONPATH=tests; names of pictures, such as ``unity``, make those alone. A
+`make pictures`, or run this file with PYTHONPATH=tests; names of pictures, such as ``unity``, make those alone. A
 picture whose programs are missing stays as it is, and the reason is said.
 """
 
@@ -15,13 +15,13 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import OpenImageIO
 import pytest
-from make_images import BACKGROUND, encoded, run
 from numpy.typing import NDArray
 from PIL import Image
 
 from blender_process import blender_jobs, packed_add_on, run_blender
 from hlsl_host import ENGINES, Sphere, draw_sphere, hlsl_page
 from lut_contract import LookupTexture
+from make_images import BACKGROUND, encoded, run
 from materialx_host import Picture, draw
 from mitsuba_surface import variant_fault
 from web_page import chromium, open_page

@@ -1,4 +1,4 @@
-"""Make the gallery of presets: `make docs`, or run this file with PYTHONPATH=docs and the package installed.
+"""Make the gallery of presets: `make pictures`, or run this file with PYTHONPATH=docs and the package installed.
 
 Writes a sphere and a preview for each preset into docs/images/gallery, and docs/gallery.md between its
 markers. Names of presets as arguments make the pictures of those alone.
@@ -15,6 +15,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from PIL import Image
+
 from make_images import (
     SPHERES,
     FloatArray,
@@ -29,8 +31,6 @@ from make_images import (
     write_jpeg,
     write_preview,
 )
-from PIL import Image
-
 from nacreous.tables.axes import thickness_scale_values
 from nacreous.tables.presets import preset, preset_names
 from nacreous.tables.spec import roughness_values

@@ -1,4 +1,4 @@
-"""Make the pictures of README.md: `make docs`, or run this file with the package installed.
+"""Make the pictures of README.md: `make pictures`, or run this file with the package installed.
 
 The spheres are perfect mirrors under an overcast sky and two soft lamps. Each of their pixels is one reading
 of the lookup texture that `nacreous tabulate` writes, at the cosine of its own angle; the thickness grows

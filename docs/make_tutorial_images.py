@@ -1,4 +1,4 @@
-"""Make the pictures of the tutorials: `make docs`, or run this file with PYTHONPATH=tests:docs.
+"""Make the pictures of the tutorials: `make pictures`, or run this file with PYTHONPATH=tests:docs.
 
 Pictures that a tutorial's own commands write are taken from following it; the page is photographed as
 make_page_image.py does it, step by step. Names of tutorials as arguments make the pictures of those alone.
@@ -12,11 +12,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from make_images import write_jpeg
-from make_page_image import SECONDS, make_swatches
 from PIL import Image
 
 from built_page import built_page
+from make_images import write_jpeg
+from make_page_image import SECONDS, make_swatches
 from served import serving
 from tutorial_pages import PAGES, SERVICE, blocks_of, follow
 from visited_page import visited
