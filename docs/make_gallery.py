@@ -1,4 +1,4 @@
-"""Make the gallery of presets: `make pictures`, or run this file with PYTHONPATH=docs and the package installed.
+"""Make the gallery of presets: `make pictures`, or run this file with PYTHONPATH=docs.
 
 Writes a sphere and a preview for each preset into docs/images/gallery, and docs/gallery.md between its
 markers. Names of presets as arguments make the pictures of those alone.

@@ -1,4 +1,4 @@
-"""Make the picture of the page that opens the README: `make pictures`, or run this file with PYTHONPATH=tests."""
+"""Make the picture of the page that opens the README: `make pictures`, or this file with PYTHONPATH=tests."""
 
 from io import BytesIO
 from pathlib import Path

@@ -92,7 +92,7 @@ class RequestRecord(logging.LogRecord):
         self, request_id: str, method: str, route: str, status: int, seconds: float, sent_bytes: int
     ) -> None:
         self.created = time.time()
-        self._strings = _quoted(request_id), _quoted_known(method), _quoted_again(route)
+        self._strings = _quoted(request_id), _quoted_known(method), _quoted_known(route)
         self._numbers = status, round(seconds * 1e3, 2), sent_bytes
 
     def line(self) -> str:
