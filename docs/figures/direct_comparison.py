@@ -60,7 +60,7 @@ def comparison_lines(tables: Tables, quality: Quality) -> Iterator[str]:
     yield "| film | mean relative error of the pixels |"
     yield "|---|--:|"
     for name, film in FILMS.items():
-        yield f"| {name} | {mean_relative_error(film, tables, quality):.2%} |"
+        yield f"| {name} | {100 * mean_relative_error(film, tables, quality):.2f} % |"
 
 
 def mean_relative_error(film: ComparedFilm, tables: Tables, quality: Quality) -> float:

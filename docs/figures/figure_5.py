@@ -69,7 +69,7 @@ FIGURE = Figure(
     number=5,
     caption="Interference renderings of opaque objects coated with 400 nm and 600 nm dielectric films "
     "respectively.",
-    quality=Quality(height=640, samples=100),
+    quality=Quality(height=640, samples=64),
     render=render,
     findings=findings,
 )

@@ -146,11 +146,11 @@ def chequered(
         "type": "checkerboard",
         "color0": dark,
         "color1": light,
-        "to_uv": mi.ScalarTransform4f().scale([extent / square, extent / square, 1]),
+        "to_uv": mi.ScalarTransform4f().rotate([0, 0, 1], turn_deg).scale(extent / square),
     }
     return {
-        "type": "rectangle",
-        "to_world": mi.ScalarTransform4f().rotate([0, 0, 1], turn_deg).scale([extent, extent, 1]),
+        "type": "rectangle",  # its far edge is level, whichever way the squares lie
+        "to_world": mi.ScalarTransform4f().scale([extent, extent, 1]),
         "bsdf": {"type": "diffuse", "reflectance": squares},
     }
 
