@@ -74,7 +74,7 @@ def findings(_: Tables) -> Iterator[str]:
     yield ""
     held = PAPER.words_held()
     most = ANGLES_DEG[held == held.max()].astype(int)
-    yield f"Words that hold at once, at most: {held.max()}, at {most[0]}° to {most[-1]}°. "
+    yield f"Words that hold at once, at most: {held.max()}, at {most[0]}° to {most[-1]}°."
     others = max(structure.words_held().max() for structure in OTHERS)
     yield f"With 1 to 12 pairs, or with one gap of 60 to 200 nm for all four wings: {others}."
 
