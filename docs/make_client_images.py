@@ -1,7 +1,7 @@
 """Make the pictures of the clients' pages, each by the renderer or the browser that its client is tested in.
 
-`make pictures`, or run this file with PYTHONPATH=tests; names of pictures, such as ``unity``, make those alone.
-A picture whose programs are missing stays as it is, and the reason is said.
+`make pictures`, or run this file with PYTHONPATH=tests; names of pictures, such as ``unity``, make those
+alone. A picture whose programs are missing stays as it is, and the reason is said.
 """
 
 import shutil
