@@ -34,12 +34,19 @@ def parsed(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m figures", description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
-    parser.add_argument("numbers", nargs="*", type=int, choices=tuple(FIGURES), metavar="NUMBER")
+    parser.add_argument("numbers", nargs="*", type=figure_number, metavar="NUMBER")
     parser.add_argument("--out", type=Path, default=DOCS / "images" / "figures", help="folder of pictures")
     parser.add_argument("--page", type=Path, default=DOCS / "paper.md", help="with a place for each figure")
     parser.add_argument("--height", type=int, help="of a panel in pixels, instead of the figure's own")
     parser.add_argument("--samples", type=int, help="paths through each pixel, instead of the figure's own")
     return parser.parse_args(arguments)
+
+
+def figure_number(text: str) -> int:
+    """Return the number of a figure that there is; choices of argparse would refuse no number at all."""
+    if text not in map(str, FIGURES):
+        raise argparse.ArgumentTypeError(f"expected one of {', '.join(map(str, FIGURES))}, got {text!r}")
+    return int(text)
 
 
 def make(figure: Figure, tables: Tables, options: argparse.Namespace) -> None:

@@ -12,7 +12,7 @@ from figures import studio
 from figures.butterflies import View, captioned, row_scene
 from figures.figure import Figure, Quality
 from figures.gamut import whitened
-from figures.hue import Lab, lab
+from figures.hue import Lab, lab, nearest_word
 from figures.pictures import exposed, stacked
 from figures.ridges import ANGLES_DEG, OTHERS, PAPER, PRESET, THICKNESSES_NM, WORDS
 from figures.tables import MITSUBA_RANGE, Tables
@@ -24,6 +24,8 @@ VIEW = View(light_deg=26.0, camera_deg=26.0)
 """The stated geometry: the light 26 degrees from the vertical on one side, the view on the other."""
 OTHER_VIEWS = (View(8.0, 8.0), View(40.0, 40.0))
 """Closer to normal incidence, where 135 nm is closest to red; and flatter, where 100 nm is bluer."""
+BEST_DEG = (0.0, 35.0, 0.0, 0.0)
+"""Angles at the facets at which each wing comes closest to its word: 100 nm is seen obliquely."""
 ALPHA = 0.3
 """Of the wings' facets: assumed; hues do not depend on it."""
 STOPS = -0.8
@@ -72,11 +74,21 @@ def findings(_: Tables) -> Iterator[str]:
         stated = seen[int(np.searchsorted(ANGLES_DEG, VIEW.facet_deg))]
         yield f"| {thickness:.0f} nm | {word} | {stated} | {seen[0]} | {_where(seen, word)} |"
     yield ""
+    yield _nearest()
     held = PAPER.words_held()
     most = ANGLES_DEG[held == held.max()].astype(int)
     yield f"Words that hold at once, at most: {held.max()}, at {most[0]}° to {most[-1]}°."
     others = max(structure.words_held().max() for structure in OTHERS)
     yield f"With 1 to 12 pairs, or with one gap of 60 to 200 nm for all four wings: {others}."
+
+
+def _nearest() -> str:
+    """Say which of the paper's words each wing is nearest to in a direction of its own."""
+    parts = []
+    for thickness, angle in zip(THICKNESSES_NM, BEST_DEG, strict=True):
+        hue = lab(PAPER.colours(thickness, np.array([angle, 90.0]))[0]).hue_deg
+        parts.append(f"{thickness:.0f} nm at {angle:g}° is {hue:.0f}°, nearest to {nearest_word(hue, WORDS)}")
+    return f"Each wing in a direction of its own, of the paper's four words: {'; '.join(parts)}.\n"
 
 
 def _where(seen: list[Lab], word: str) -> str:

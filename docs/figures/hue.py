@@ -28,6 +28,7 @@ HUES = (
 LEAST_CHROMA = 4.0
 """C*_ab below which a colour is called grey."""
 
+
 REC709_TO_XYZ = np.array(
     [[0.4123908, 0.3575843, 0.1804808], [0.2126390, 0.7151687, 0.0721923], [0.0193308, 0.1191948, 0.9505322]]
 )
@@ -63,6 +64,14 @@ class Lab:
     def __str__(self) -> str:
         """Return the word with the angle that it follows from."""
         return f"{self.word} (h {self.hue_deg:.0f}°, C* {self.chroma:.0f})"
+
+
+def nearest_word(hue_deg: float, words: tuple[str, ...]) -> str:
+    """Return which of some words has the middle of its range nearest to a hue."""
+    bounds = [bound for bound, _ in HUES]
+    ends = [*bounds[1:], bounds[0] + 360]
+    middles = {word: (first + end) / 2 for (first, word), end in zip(HUES, ends, strict=True)}
+    return min(words, key=lambda word: abs((hue_deg - middles[word] + 180) % 360 - 180))
 
 
 def lab(linear_rgb: ArrayLike) -> Lab:

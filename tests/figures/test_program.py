@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from figures.__main__ import parsed
 from figures.coated_glass import CAMERA, GLASS_CENTRE, LIGHTS
 from figures.hue import lab
 from mitsuba_surface import variant_fault
@@ -103,3 +104,16 @@ def unit(vector: FloatArray) -> FloatArray:
 def decoded(srgb: FloatArray) -> FloatArray:
     """Return linear Rec.709 of sRGB (IEC 61966-2-1)."""
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def test_without_numbers_every_figure_is_made() -> None:
+    """`make figures` names none; argparse's choices once refused that."""
+    assert parsed([]).numbers == []
+    assert parsed(["3", "9"]).numbers == [3, 9]
+
+
+def test_a_figure_that_the_paper_renders_not_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    """One message, with what there is."""
+    with pytest.raises(SystemExit):
+        parsed(["2"])
+    assert "expected one of 3, 4, 5, 6, 7, 8, 9, got '2'" in capsys.readouterr().err

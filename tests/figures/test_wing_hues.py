@@ -8,8 +8,8 @@ import pytest
 
 from figures import studio
 from figures.figure import Quality
-from figures.figure_8 import VIEW, rendering
-from figures.hue import lab
+from figures.figure_8 import BEST_DEG, VIEW, rendering
+from figures.hue import lab, nearest_word
 from figures.ridges import PAPER, THICKNESSES_NM, WORDS
 from figures.tables import Tables
 from mitsuba_plugin import use_variant
@@ -56,6 +56,13 @@ def test_the_order_of_hues_is_the_papers() -> None:
     words = [exact_words(thickness)[STATED] for thickness in THICKNESSES_NM]
     assert words == [*WORDS[:3], "orange"]
     hues = [hue_deg(exact_colours(thickness)[STATED]) for thickness in THICKNESSES_NM]
+    assert (np.diff(hues) < 0).all()
+
+
+def test_each_wing_has_its_word_in_a_direction_of_its_own() -> None:
+    """Of the four words each is nearest to its own: along the normal, and 100 nm from 35 degrees."""
+    hues = [hue_deg(exact_colours(d)[int(at)]) for d, at in zip(THICKNESSES_NM, BEST_DEG, strict=True)]
+    assert tuple(nearest_word(hue, WORDS) for hue in hues) == WORDS
     assert (np.diff(hues) < 0).all()
 
 
