@@ -5,11 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nacreous.opencl.device import open_device
+from nacreous.opencl.device import Device, open_device
 from nacreous.opencl.film import film_intensities
 from nacreous.opencl.film_problem import THICK, FilmProblem, Segment
 from nacreous.opencl.precision import Precision
-from reference import Groups, Intensities
+from reference import Groups, Intensities, film
 
 DOUBLE_TOLERANCE = 1e-12
 SINGLE_TOLERANCE = 2e-5
@@ -86,3 +86,11 @@ def kernel_film(
         problem = one_run(problem)
     computed = film_intensities(open_device(), problem, precision, lanes=lanes)
     return Intensities(*(np.asarray(computed[name][0], np.float64) for name in Intensities._fields))
+
+
+def largest_error(device: Device, problem: FilmProblem, lanes: int | None = None) -> float:
+    """Return by how much R and T in single precision differ from tests/reference.py."""
+    got = film_intensities(device, problem, Precision.SINGLE, lanes=lanes)
+    d_nm = problem.thickness_nm[0, 0]
+    expected = film(problem.index, d_nm, problem.wavelength_nm, problem.cos_theta)
+    return max(float(np.abs(got[name][0] - getattr(expected, name)).max()) for name in got)

@@ -1,23 +1,17 @@
 """Brushed objects: measured materials of several roughnesses and thicknesses, and pictures of them."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 import nacreous
 from figures.hue import lab
 from figures.lobe import Lobe, lobe_of_file, lobe_of_film, shown_width
-from figures.pictures import exposed, labelled, side_by_side, stacked
 from figures.tables import Tables, colours, table_at_angles
 from nacreous import Spec
 from nacreous.optics.surface import Surface, alphas_at
-from nacreous.tables.identity import table_id
-from nacreous.tables.sampling import Sampling
-from nacreous.tables.tabulate import tabulate_table
 
 FloatArray = NDArray[np.float64]
 
@@ -65,24 +59,6 @@ class Brushed:
         return lobe_of_film(self.spec.surface, np.array(indices), self.thickness_nm)
 
 
-def measured_file(tables: Tables, spec: Spec) -> Path:
-    """Return the ``.bsdf`` of a spec, sampled where Mitsuba reads it and nowhere else."""
-    file = tables.folder / f"{table_id(spec)[:16]}.bsdf"
-    if not file.is_file():
-        tables.folder.mkdir(parents=True, exist_ok=True)
-        nacreous.write(tabulate_table(spec, sampling=Sampling.RGL_SPECTRA), file)
-    return file
-
-
-def panels(
-    rows: Sequence[Sequence[Brushed]], rendered: Callable[[Brushed], FloatArray], stops: float
-) -> Image.Image:
-    """Return rows of panels as one picture."""
-    return stacked(
-        [side_by_side([labelled(exposed(rendered(each), stops), each.label) for each in row]) for row in rows]
-    )
-
-
 def colour_lines(surfaces: Sequence[Brushed]) -> Iterator[str]:
     """Return a Markdown table of the colours of the films, each thickness once."""
     yield "| film | " + " | ".join(f"{each:.0f}°" for each in STATED_DEG) + " |"
@@ -98,7 +74,7 @@ def lobe_lines(tables: Tables, surfaces: Sequence[Brushed]) -> Iterator[str]:
     yield "| roughness | alpha along x, y | width along x: file, exact | width along y: file, exact |"
     yield "|--:|---|---|---|"
     for surface in {each.roughness: each for each in surfaces}.values():
-        file, exact = lobe_of_file(measured_file(tables, surface.spec)), surface.exact_lobe
+        file, exact = lobe_of_file(tables.written(surface.spec, ".bsdf")), surface.exact_lobe
         alphas = ", ".join(f"{alpha:.3f}" for alpha in surface.alphas)
         along_x = f"{shown_width(file.x_deg)}, {shown_width(exact.x_deg)}"
         along_y = f"{shown_width(file.y_deg)}, {shown_width(exact.y_deg)}"

@@ -9,7 +9,7 @@ from PIL import Image
 
 import nacreous
 from figures import studio
-from figures.brushed import RANGE_NM, measured_file
+from figures.brushed import RANGE_NM
 from figures.butterflies import View, captioned, row_scene
 from figures.figure import Figure, Quality
 from figures.gamut import whitened
@@ -70,7 +70,7 @@ def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
 
 def rendering(tables: Tables, view: View, quality: Quality) -> FloatArray:
     """Render Sun's wing on the left and ours on the right, linear (H, W, 3)."""
-    films = [studio.measured(measured_file(tables, model.spec)) for model in (SUN, OURS)]
+    films = [studio.measured(tables.written(model.spec, ".bsdf")) for model in (SUN, OURS)]
     return studio.rendered(row_scene(tables.folder, films, view, quality.height), quality.samples)
 
 
@@ -93,7 +93,7 @@ def findings(tables: Tables) -> Iterator[str]:
 
 
 def _model_line(tables: Tables, model: Model) -> str:
-    lobe = lobe_of_file(measured_file(tables, model.spec))
+    lobe = lobe_of_file(tables.written(model.spec, ".bsdf"))
     flat, normal = model.reflected(np.array([0.5, 1.0]))
     words = " | ".join(f"Y {_luminance(each):.3f}, {lab(each)}" for each in (normal, flat))
     return f"| {model.name} | {shown_width(lobe.x_deg)}, {shown_width(lobe.y_deg)} | {words} |"

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 import nacreous
 from nacreous import Spec
+from nacreous.formats.registry import format_of
+from nacreous.tables.tabulate import tabulate_table
 
 FloatArray = NDArray[np.float64]
 
@@ -26,13 +28,14 @@ class Tables:
     def written(self, spec: Spec, suffix: str) -> Path:
         """Return the file of a spec in the format of a suffix, such as ``.spectral.exr`` or ``.bsdf``.
 
-        A transparent film's T lies beside it. What is there already is not computed again.
+        A transparent film's T lies beside it. What is there already is not computed again, and a measured
+        material is sampled where its readers do and nowhere else.
         """
         digest = sha256(spec.model_dump_json().encode()).hexdigest()[:12]
         file = self.folder / f"film-{digest}{suffix}"
         if not file.is_file():
             self.folder.mkdir(parents=True, exist_ok=True)
-            nacreous.write(nacreous.tabulate(spec), file)
+            nacreous.write(tabulate_table(spec, sampling=format_of(file).sampling), file)
         return file
 
 

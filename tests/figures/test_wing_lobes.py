@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from figures import studio
-from figures.brushed import measured_file
 from figures.figure_9 import ISOTROPIC, SUN
 from figures.lobe import lobe_of_file
 from figures.tables import Tables
@@ -23,5 +22,5 @@ def test_facets_spread_light_twice_as_far_as_a_phong_lobe(name: str, tmp_path: P
     use_variant(studio.VARIANT)
     model, turns = TURNS[name]
     half_deg = turns * np.degrees(np.arccos(0.5 ** (1 / EXPONENT)))
-    lobe = lobe_of_file(measured_file(Tables(tmp_path), model.spec))
+    lobe = lobe_of_file(Tables(tmp_path).written(model.spec, ".bsdf"))
     np.testing.assert_allclose([lobe.x_deg, lobe.y_deg], 2 * half_deg, rtol=0.03)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kernel_film import one_run, plain_problem
+from kernel_film import largest_error, one_run, plain_problem
 from lane_widths import lane_widths
 from nacreous.opencl import film_buffers, polynomials
 from nacreous.opencl.device import Device
@@ -48,14 +48,6 @@ def thin_film(name: str, factor: float = 1.0) -> FilmProblem:
 def tolerance(layers: int) -> float:
     """Error allowed of so many layers: that of five at least."""
     return LAYER_TOLERANCE * max(layers, 5)
-
-
-def largest_error(device: Device, problem: FilmProblem, lanes: int | None = None) -> float:
-    """Return by how much R and T in single precision differ from tests/reference.py."""
-    got = film_intensities(device, problem, Precision.SINGLE, lanes=lanes)
-    d_nm = problem.thickness_nm[0, 0]
-    expected = film(problem.index, d_nm, problem.wavelength_nm, problem.cos_theta)
-    return max(float(np.abs(got[name][0] - getattr(expected, name)).max()) for name in got)
 
 
 @pytest.mark.parametrize("name", FILMS)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kernel_film import one_run, plain_problem
+from kernel_film import largest_error, one_run, plain_problem
 from lane_widths import lane_widths
 from nacreous.opencl import polynomials, stack_polynomials
 from nacreous.opencl.device import Device
@@ -54,14 +54,6 @@ def form_of(device: Device, problem: FilmProblem) -> Form:
     """Return what the kernels evaluate a film by."""
     buffers = film_buffers(device, problem, Precision.SINGLE, device.lanes(Precision.SINGLE))
     return Form(dict(buffers.build_numbers)["POLYNOMIALS"])
-
-
-def largest_error(device: Device, problem: FilmProblem, lanes: int | None = None) -> float:
-    """Return by how much R and T in single precision differ from tests/reference.py."""
-    got = film_intensities(device, problem, Precision.SINGLE, lanes=lanes)
-    d_nm = problem.thickness_nm[0, 0]
-    expected = film(problem.index, d_nm, problem.wavelength_nm, problem.cos_theta)
-    return max(float(np.abs(got[name][0] - getattr(expected, name)).max()) for name in got)
 
 
 @pytest.mark.parametrize("name", FILMS)
