@@ -109,7 +109,7 @@ def row_scene(folder: Path, films: Sequence[Scene], view: View, height: int) -> 
         insects |= butterfly(folder, film, f"butterfly-{at}", (at - middle) * SPACING)
     return {
         "type": "scene",
-        "integrator": {"type": "path", "max_depth": 3},
+        "integrator": {"type": "path", "max_depth": 2},
         "sensor": camera(view, len(films), height),
         "light": lamp(view),
         "ground": ground(),

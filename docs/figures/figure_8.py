@@ -13,7 +13,7 @@ from figures.butterflies import View, captioned, row_scene
 from figures.figure import Figure, Quality
 from figures.gamut import whitened
 from figures.hue import Lab, lab, nearest_word
-from figures.pictures import exposed, stacked
+from figures.pictures import exposed, fitting_stops, stacked
 from figures.ridges import ANGLES_DEG, OTHERS, PAPER, PRESET, THICKNESSES_NM, WORDS
 from figures.tables import MITSUBA_RANGE, Tables
 from figures.wing_chart import wing_chart
@@ -28,7 +28,6 @@ BEST_DEG = (0.0, 35.0, 0.0, 0.0)
 """Angles at the facets at which each wing comes closest to its word: 100 nm is seen obliquely."""
 ALPHA = 0.3
 """Of the wings' facets: assumed; hues do not depend on it."""
-STOPS = -0.8
 
 
 def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
@@ -41,7 +40,8 @@ def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
 
 
 def _shown(linear: FloatArray) -> Image.Image:
-    return exposed(whitened(linear), STOPS)
+    in_gamut = whitened(linear)
+    return exposed(in_gamut, fitting_stops(in_gamut))
 
 
 def _caption(view: View) -> str:

@@ -15,7 +15,7 @@ from figures.figure import Figure, Quality
 from figures.gamut import whitened
 from figures.hue import lab
 from figures.lobe import lobe_of_file, shown_width
-from figures.pictures import exposed, stacked
+from figures.pictures import exposed, fitting_stops, stacked
 from figures.tables import MITSUBA_RANGE, Tables, colours, table_at_angles
 from nacreous import Spec
 
@@ -24,7 +24,6 @@ FloatArray = NDArray[np.float64]
 PRESET = "paper/figure-9"
 VIEWS = (View(26.0, 26.0), View(64.0, 16.0))
 """In the direction of the mirror, and far from it: the facets that reflect there lean by 24 degrees."""
-STOPS = (-1.1, 0.4)
 STATED_DEG = np.array([0.0, 26.0, 40.0, 60.0])
 
 
@@ -61,11 +60,12 @@ OURS = Model(
 
 def render(tables: Tables, quality: Quality) -> dict[str, Image.Image]:
     """Render both wings in both views."""
-    rows = [
-        captioned(exposed(whitened(rendering(tables, view, quality)), stops), _caption(view))
-        for view, stops in zip(VIEWS, STOPS, strict=True)
-    ]
-    return {"figure-9": stacked(rows)}
+    return {"figure-9": stacked([_row(tables, view, quality) for view in VIEWS])}
+
+
+def _row(tables: Tables, view: View, quality: Quality) -> Image.Image:
+    linear = whitened(rendering(tables, view, quality))
+    return captioned(exposed(linear, fitting_stops(linear)), _caption(view))
 
 
 def rendering(tables: Tables, view: View, quality: Quality) -> FloatArray:

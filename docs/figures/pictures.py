@@ -22,6 +22,14 @@ def exposed(linear: FloatArray, stops: float = 0.0) -> Image.Image:
     return Image.fromarray((255 * encoded(2.0**stops * linear)).round().astype(np.uint8))
 
 
+def fitting_stops(linear: FloatArray) -> float:
+    """Return the exposure at which no colour is clipped but those of one pixel in a thousand.
+
+    A channel that is cut off at white turns a colour's hue.
+    """
+    return -float(np.log2(np.quantile(linear.max(axis=-1), 0.999)))
+
+
 def encoded(linear: FloatArray) -> FloatArray:
     """Return sRGB of linear Rec.709 (IEC 61966-2-1), clipped to 0 to 1."""
     share = np.clip(linear, 0.0, 1.0)

@@ -14,6 +14,8 @@ from PIL import Image
 from figures.__main__ import parsed
 from figures.coated_glass import CAMERA, GLASS_CENTRE, LIGHTS
 from figures.hue import lab
+from figures.registry import FIGURES
+from figures.tables import Tables
 from mitsuba_surface import variant_fault
 from reference_colour import film_colour
 
@@ -62,6 +64,15 @@ def test_findings_are_written_between_their_marks(made: Path) -> None:
     before, after = (folder / "paper.md" for folder in (ROOT / "docs", made))
     assert outside_marks(before.read_text()) == outside_marks(after.read_text())
     assert "| 450 nm | 400.0, 514.3, 720.0 | 400.0, 514.3, 720.0 |" in after.read_text()
+
+
+@pytest.mark.parametrize("number", [4, 8])
+def test_the_page_says_what_is_measured_now(number: int, tmp_path: Path) -> None:
+    """Colours, maxima and words of the page are those that the code finds: docs/paper.md cannot go stale."""
+    figure = FIGURES[number]
+    page = (ROOT / "docs" / "paper.md").read_text()
+    block = page.partition(f"<!-- {figure.name}: begin -->\n")[2].partition(f"<!-- {figure.name}: end -->")[0]
+    assert block.partition("\n\n")[2].strip() == "\n".join(figure.findings(Tables(tmp_path))).strip()
 
 
 def outside_marks(page: str) -> str:
