@@ -10,7 +10,7 @@ from served import serving
 from visited_page import visited
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Locator, Page
+    from playwright.sync_api import Browser, Locator, Page, Route
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="the Python package playwright is missing")
 expect = sync_api.expect
@@ -249,6 +249,26 @@ def test_a_key_is_asked_for(browser: "Browser", tmp_path: Path) -> None:
             field.press("Enter")
             expect(dialogue).to_be_hidden()
             expect(page.get_by_role("button", name="Soap bubble")).to_be_visible(timeout=20_000)
+
+
+def test_a_late_refusal_of_another_key_is_no_refusal_of_this_one(browser: "Browser", tmp_path: Path) -> None:
+    """An answer to a request with the key before arrives after the right one is given: that one is kept."""
+    with serving(tmp_path / "store", api_keys=KEY) as served:
+        served.await_ready()
+        with visited(browser, f"{served.url}/") as page:
+            dialogue = page.get_by_role("dialog", name="This service asks for a key")
+            field = dialogue.get_by_label("Key", exact=True)
+            held: list[Route] = []
+            page.route("**/v1/presets", lambda route: held.append(route), times=1)
+            field.fill("no key of it")
+            field.press("Enter")
+            expect(field).to_have_accessible_description("The service does not know this key.")
+            field.fill(KEY)
+            field.press("Enter")
+            expect(dialogue).to_be_hidden()
+            held[0].continue_()
+            expect(page.get_by_role("button", name="Soap bubble")).to_be_visible()
+            expect(dialogue).to_be_hidden()
 
 
 def test_a_keyboard_can_pass_over_the_presets(page: "Page") -> None:

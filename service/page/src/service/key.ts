@@ -15,6 +15,13 @@ export function useKey(value: string): void {
   sessionStorage.setItem(STORED, value);
 }
 
+/** The service refuses a key: whether that is the one in use, and another is wanted. */
+export function refuseKey(used: string): boolean {
+  const isCurrent = used === key.value;
+  if (isCurrent) keyWanted.value = true;
+  return isCurrent;
+}
+
 /** The header of a request. */
 export function bearerKey(): Record<string, string> {
   return key.value ? { Authorization: `Bearer ${key.value}` } : {};

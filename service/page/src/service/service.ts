@@ -1,7 +1,7 @@
 /** The requests of the page, one function each. All of them go to where the page itself has come from. */
 
 import type { MaterialAnswer, MaterialList, PresetAnswer, PresetEntry, TableAdded } from "./answers";
-import { bearerKey, keyWanted } from "./key";
+import { bearerKey, key, refuseKey } from "./key";
 import { LostError, type Problem, ProblemError } from "./problem";
 import type { SpecDocument } from "../film/document";
 
@@ -79,12 +79,13 @@ export function relative(link: string): string {
   return link.replace(/^\//, "");
 }
 
-/** The answer to a request; asked again where the service is busy. @throws ProblemError, LostError */
+/** The answer to a request; asked again where the service is busy, or its key is an old one. @throws ProblemError, LostError */
 export async function answered(address: string, init: RequestInit = {}, signal?: AbortSignal): Promise<Response> {
   for (let retry = 0; ; retry++) {
+    const used = key.value;
     const response = await sent(address, init, signal);
     if (response.ok) return response;
-    if (response.status === UNAUTHORIZED) keyWanted.value = true;
+    if (response.status === UNAUTHORIZED && !refuseKey(used)) continue;
     if (!UNAVAILABLE.has(response.status) || retry === MOST_RETRIES) throw new ProblemError(await problemOf(response));
     await pause(Number(response.headers.get("Retry-After") ?? 1), signal);
   }
