@@ -19,14 +19,16 @@ __all__ = ["formula", "use_mathml"]
 _LOGGER = logging.getLogger(__name__)
 _FUNCTION = re.compile(
     r"(?P<factor>(?<=[\w})])\s*)?"
-    r"(?P<name>\\(?:sin|cos|tan|exp|ln|log|arg|Re|Im|operatorname\{\w+\})(?![A-Za-z])(?:\^(?:\w|\{[^}]*\}))?)\s*"
+    r"(?P<name>\\(?:(?:sin|cos|tan|exp|ln|log|arg|Re|Im)(?![A-Za-z])|operatorname\{\w+\})(?:\^(?:\w|\{[^}]*\}))?)\s*"
     r"(?P<argument>(?=[\w\\])(?!\\(?:left|big|,)))?"
 )
 _BAR = re.compile(r"<mo(?: stretchy=\"false\")?>([|‖⟨⟩])</mo>")
 _FRACTION = re.compile(r"\\[tdc]?frac(?![A-Za-z])\s*")
 _LETTER = r"(?:\\[A-Za-z]+|\w|\{[^{}]*\})"
 _ACCENT = r"\\(?:bar|hat|tilde|vec|dot|ddot|check|breve|acute|grave|mathring)(?![A-Za-z])"
-_INDEXED = re.compile(rf"(?:(?P<accent>{_ACCENT})\s*(?P<of>{_LETTER})|\{{(?P<braced>{_ACCENT}\s*{_LETTER})\}})\s*(?=_)")
+_INDEXED = re.compile(
+    rf"(?:(?P<accent>{_ACCENT})\s*(?P<of>{_LETTER})|\{{(?P<braced>{_ACCENT}\s*{_LETTER})\}})\s*(?=_)"
+)
 _LOST_INDEX = re.compile(r"<mo (?:stretchy=\"false\"|accent=\"true\")>[^<]*</mo>\s*</munderover>")
 _SYNONYMS = {r"\dots": r"\ldots", "°": r"^{\circ}"}
 
@@ -72,7 +74,7 @@ def formula(latex: str, *, as_block: bool) -> str:
 
 
 def _demand_braces(latex: str) -> None:
-    """Refuse the fractions that docutils reads otherwise than TeX: it takes 12 of \\frac12 as one number."""
+    """Refuse fractions without braces: of one half, written 12, docutils makes twelve over what follows."""
     for fraction in _FRACTION.finditer(latex):
         numerator = _group_end(latex, fraction.end())
         if numerator is None or _group_end(latex, numerator) is None:
