@@ -124,7 +124,7 @@ def test_links_of_a_repository_are_links_of_the_site(text: str, expected: str) -
         (r"n_0\sin\theta", ["<mi>sin</mi>", 'width="0.1667em"', "<mi>θ</mi>"]),
         (r"|r|^2", ['<mo stretchy="false" lspace="0" rspace="0">|</mo>']),
         (r"\psi = 45°", ["45", "∘"]),
-        (r"\operatorname{Im}k_z", ["<mi>Im</mi>", 'width="0.1667em"']),
+        (r"\operatorname{Im}k_z", [">Im</mi>", 'width="0.1667em"']),
         (r"a < b", ["&lt;"]),
     ],
 )
