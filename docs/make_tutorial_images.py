@@ -33,7 +33,7 @@ WRITTEN = {
 }
 """The picture that a tutorial's commands write, what it is called here, and its width."""
 VIEWPORT = {"width": 1240, "height": 780}
-THICKNESS_NM, MARGIN = "45", 20
+THICKNESS_NM, MARGIN = "50", 20
 
 
 def main(chosen: Iterable[str] = ()) -> None:

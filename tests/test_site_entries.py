@@ -6,8 +6,10 @@ import subprocess
 import sys
 from importlib import import_module
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
+from docutils.utils.math import MathError
 
 from built_site import ROOT, Page
 from nacreous_site.json_schema import unit_of
@@ -122,6 +124,7 @@ def test_links_of_a_repository_are_links_of_the_site(text: str, expected: str) -
         (r"n_0\sin\theta", ["<mi>sin</mi>", 'width="0.1667em"', "<mi>θ</mi>"]),
         (r"|r|^2", ['<mo stretchy="false" lspace="0" rspace="0">|</mo>']),
         (r"\psi = 45°", ["45", "∘"]),
+        (r"\operatorname{Im}k_z", [">Im</mi>", 'width="0.1667em"']),
         (r"a < b", ["&lt;"]),
     ],
 )
@@ -129,6 +132,55 @@ def test_formulas_are_mathml(latex: str, expected: list[str]) -> None:
     """Functions stand apart from their arguments, bars do not, and nothing of LaTeX is left."""
     made = formula(latex, as_block=False)
     assert all(part in made for part in expected), made
+
+
+@pytest.mark.parametrize(
+    ("latex", "expected"),
+    [
+        (r"h = \frac{1}{2}x^2", "h = mfrac(1, 2) msup(x, 2)"),
+        (r"(m + \tfrac{1}{2})\lambda", "( m + mfrac(1, 2) ) λ"),
+        (r"\frac{\frac{a}{b}}{c}", "mfrac(mfrac(a, b), c)"),
+        (r"\bar r_{j+1}", "msub(mover(r, ˉ), j + 1)"),
+        (r"{\bar r}_j", "msub(mover(r, ˉ), j)"),
+        (r"\bar{E}_w", "msub(mover(E, ˉ), w)"),
+        (r"|\bar t_s|^2", "| msub(mover(t, ˉ), s) msup(|, 2)"),
+        (r"\bar F^2\bar E_w", "msup(mover(F, ˉ), 2) msub(mover(E, ˉ), w)"),
+        (r"n_2^*", "msubsup(n, 2, *)"),
+    ],
+)
+def test_formulas_are_built_as_tex_builds_them(latex: str, expected: str) -> None:
+    """A fraction has its two parts, a power its base, and an index stands behind an accented letter."""
+    assert outline(latex) == expected
+
+
+def outline(latex: str) -> str:
+    """Return what a formula is built of; a row is its parts with spaces between them."""
+    made = formula(latex, as_block=False)
+    return _outlined(ElementTree.fromstring(made))  # noqa: S314 - our own output
+
+
+def _outlined(part: ElementTree.Element) -> str:
+    tag = part.tag.rpartition("}")[2]
+    inside = [made for child in part if (made := _outlined(child))]
+    if not len(part):
+        return (part.text or "").strip()
+    return " ".join(inside) if tag in {"math", "mrow"} else f"{tag}({', '.join(inside)})"
+
+
+@pytest.mark.parametrize(
+    ("latex", "reason"),
+    [
+        (r"h = \frac12\left(x\right)^2", r"braces, as in \\frac\{1\}\{2\}"),
+        (r"(m + \tfrac12)\lambda", r"braces, as in \\tfrac"),
+        (r"\dfrac{1}2", r"braces, as in \\dfrac"),
+        (r"\frac{1", "braces"),
+        (r"\overline{r}_s", "below the letter"),
+    ],
+)
+def test_formulas_that_would_be_wrong_are_refused(latex: str, reason: str) -> None:
+    """Twelve in place of a half, and an index below an overlined letter, are errors that say so."""
+    with pytest.raises(MathError, match=reason):
+        formula(latex, as_block=False)
 
 
 def test_units_follow_names() -> None:

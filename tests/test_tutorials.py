@@ -7,7 +7,10 @@ from pathlib import Path
 
 import pytest
 
+import nacreous
+from figures.hue import lab
 from mitsuba_surface import variant_fault
+from nacreous.tables.presets import preset
 from served import serving
 from shown_output import fault
 from tutorial_pages import PAGES, SERVICE, blocks_of, follow
@@ -53,6 +56,16 @@ def test_there_is_a_tutorial_for_each_kind_of_user() -> None:
     assert {page.stem for page in PAGES} >= {"artist", "researcher", "pipeline", "optics"}
     for page in PAGES:
         assert any(block.shown for block in blocks_of(page)), page
+
+
+def test_the_artists_blue_is_blue() -> None:
+    """50 nm has a blue hue in the sense of Munsell, head on and at 60 degrees, and 45 nm has none."""
+    overrides = ["table.thickness_scale=[0.45, 0.5]", "table.cos_theta=[0.5, 1.0]"]
+    colours = nacreous.tabulate(preset("anodised-titanium", overrides)).R_rgb
+    hues = [lab(film.sel(cos_theta=mu).values) for film in colours for mu in (1, 0.5)]
+    assert [colour.word for colour in hues] == ["violet", "purple", "blue", "blue"]
+    text = next(page for page in PAGES if page.stem == "artist").read_text(encoding="utf-8")
+    assert [f"{colour.hue_deg:.0f}°" for colour in hues if f"{colour.hue_deg:.0f}°" not in text] == []
 
 
 @pytest.mark.parametrize(

@@ -19,10 +19,17 @@ __all__ = ["formula", "use_mathml"]
 _LOGGER = logging.getLogger(__name__)
 _FUNCTION = re.compile(
     r"(?P<factor>(?<=[\w})])\s*)?"
-    r"(?P<name>\\(?:sin|cos|tan|exp|ln|log|arg|Re|Im|operatorname\{\w+\})(?![A-Za-z])(?:\^(?:\w|\{[^}]*\}))?)\s*"
+    r"(?P<name>\\(?:(?:sin|cos|tan|exp|ln|log|arg|Re|Im)(?![A-Za-z])|operatorname\{\w+\})(?:\^(?:\w|\{[^}]*\}))?)\s*"
     r"(?P<argument>(?=[\w\\])(?!\\(?:left|big|,)))?"
 )
 _BAR = re.compile(r"<mo(?: stretchy=\"false\")?>([|‖⟨⟩])</mo>")
+_FRACTION = re.compile(r"\\[tdc]?frac(?![A-Za-z])\s*")
+_LETTER = r"(?:\\[A-Za-z]+|\w|\{[^{}]*\})"
+_ACCENT = r"\\(?:bar|hat|tilde|vec|dot|ddot|check|breve|acute|grave|mathring)(?![A-Za-z])"
+_INDEXED = re.compile(
+    rf"(?:(?P<accent>{_ACCENT})\s*(?P<of>{_LETTER})|\{{(?P<braced>{_ACCENT}\s*{_LETTER})\}})\s*(?=_)"
+)
+_LOST_INDEX = re.compile(r"<mo (?:stretchy=\"false\"|accent=\"true\")>[^<]*</mo>\s*</munderover>")
 _SYNONYMS = {r"\dots": r"\ldots", "°": r"^{\circ}"}
 
 
@@ -58,16 +65,45 @@ def _mathml(node: nodes.Element, latex: str, *, as_block: bool) -> str:
 
 
 def formula(latex: str, *, as_block: bool) -> str:
-    """Return the MathML of a formula in LaTeX; raises `MathError` where docutils does not know a command."""
+    """Return the MathML of a formula in LaTeX; raises `MathError` where it would be drawn wrongly."""
+    _demand_braces(latex)
     made = latex2mathml.tex2mathml(_known(latex), as_block=as_block)
+    if _LOST_INDEX.search(made):
+        raise MathError("an index of an accented letter would be drawn below the letter")
     return _BAR.sub(r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>', made)  # no relation, no growth
+
+
+def _demand_braces(latex: str) -> None:
+    """Refuse fractions without braces: of one half, written 12, docutils makes twelve over what follows."""
+    for fraction in _FRACTION.finditer(latex):
+        numerator = _group_end(latex, fraction.end())
+        if numerator is None or _group_end(latex, numerator) is None:
+            name = fraction[0].strip()
+            raise MathError(f"numerator and denominator want braces, as in {name}{{1}}{{2}}")
+
+
+def _group_end(latex: str, start: int) -> int | None:
+    """Return where a group in braces ends, with the spaces after it; None where none begins or it is open."""
+    depth = 0
+    for brace in re.finditer(r"\\.|[{}]|\S", latex[start:]):
+        depth += {"{": 1, "}": -1}.get(brace[0], 0)
+        if depth <= 0:
+            return start + brace.end() if brace[0] == "}" else None
+    return None
 
 
 def _known(latex: str) -> str:
     """Return LaTeX in the words that docutils knows."""
     for name, known in _SYNONYMS.items():
         latex = latex.replace(name, known)
+    latex = _INDEXED.sub(_enclosed, latex)
     return _FUNCTION.sub(_spaced, latex)
+
+
+def _enclosed(indexed: re.Match[str]) -> str:
+    """Return an accented letter as a row of its own, or docutils sets its index as a limit below it."""
+    accented = indexed["braced"] or f"{indexed['accent']} {indexed['of']}"
+    return rf"{{{accented}{{}}}}"
 
 
 def _spaced(function: re.Match[str]) -> str:
