@@ -39,8 +39,8 @@ def baseline(chart: "NamedChart", tolerance_nm: float) -> str:
     """Say both."""
     less, more = (stretched(chart, factor) for factor in WRONG_BY)
     return (
-        f"By chance, {shuffled(chart, tolerance_nm):.1f} of {len(chart.colours)} would hold within "
-        f"±{tolerance_nm:.0f} nm: the mean over all orders of the names. With the names in their order, "
+        f"By chance, which is the mean over all orders of the names, {shuffled(chart, tolerance_nm):.1f} of "
+        f"{len(chart.colours)} would hold within ±{tolerance_nm:.0f} nm. With the names in their order, "
         f"{less} hold if every thickness of the chart is multiplied by {WRONG_BY[0]}, and {more} if by "
         f"{WRONG_BY[1]}."
     )

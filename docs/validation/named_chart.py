@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from figures.hue import HUES
 from validation.appearance import lightness_chroma_hue, shown
-from validation.baseline import baseline
+from validation.baseline import baseline, shuffled
 from validation.drawing import FAINT, INK, dress, figure, strip
 from validation.film_colours import colours_over_thickness
 from validation.page import table
@@ -142,9 +142,14 @@ def measure(title: str, preset: str, colours: tuple[ChartColour, ...], most_nm: 
 def headline(chart: NamedChart) -> str:
     """Say how many names hold, and how far off those are at most."""
     farthest = np.abs(chart.offsets_nm[chart.kept]).max()
+    return f"{count(chart)}, the farthest of them {farthest:.0f} nm off"
+
+
+def count(chart: NamedChart) -> str:
+    """Say how many names hold, and how many would by chance."""
     return (
-        f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm, the farthest of "
-        f"them {farthest:.0f} nm off"
+        f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm (by chance "
+        f"{shuffled(chart, TOLERANCE_NM):.1f})"
     )
 
 
