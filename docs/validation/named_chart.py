@@ -1,18 +1,20 @@
 """A colour chart of the literature beside the colours that a film has at these thicknesses.
 
-A colour of a chart is a word. Here a word is a range of hues, and for the colourless ones a chroma: the
-literature's word stands for one or two of the words of figures/hue.py, whose bounds are Munsell's. A word
-holds where the film's colour is within; how far that is from the chart's thickness is the word's offset.
+A colour of a chart is a word. Here a word is a range of hues: the literature's word stands for one or two of
+the words of figures/hue.py, whose bounds are Munsell's. For "metallic" and "silver" it is a chroma, below
+`COLOURLESS`, which is not the chroma below which figures/hue.py says grey. A word holds where the film's
+colour is within; how far that is from the chart's thickness is the word's offset.
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from figures.hue import HUES
 from validation.appearance import lightness_chroma_hue, shown
+from validation.baseline import baseline, shuffled
 from validation.drawing import FAINT, INK, dress, figure, strip
 from validation.film_colours import colours_over_thickness
 from validation.page import table
@@ -27,7 +29,12 @@ TOLERANCE_NM = 20.0
 FARTHEST_NM = 60.0
 """Farther away, a colour is that of another order."""
 COLOURLESS = 12.0
-"""C* below which a metal is called silver or metallic."""
+"""C* below which a film may be called silver or metallic, and is called grey here.
+
+figures/hue.py says grey below C* 4 alone. The charts' words are for metals, which have a tint: bare silicon,
+bluish, has C* 6, and bare titanium, yellowish, has 4. The bound is twice that of silicon, and about Munsell's
+chroma 2. Any bound of 10 to 15 gives the same offsets; below 7, "metallic" holds nowhere.
+"""
 MISSED = "#c23b22"
 DARK = 50.0
 """L* below which a colour is called dark."""
@@ -110,7 +117,11 @@ class NamedChart:
     @property
     def kept(self) -> NDArray[np.bool_]:
         """Say which names hold within the tolerance."""
-        return np.abs(self.offsets_nm) <= TOLERANCE_NM
+        return self.kept_within(TOLERANCE_NM)
+
+    def kept_within(self, tolerance_nm: float) -> NDArray[np.bool_]:
+        """Say which names hold within so many nm."""
+        return np.abs(self.offsets_nm) <= tolerance_nm
 
 
 def words_of(hue_deg: FloatArray) -> NDArray[np.str_]:
@@ -131,9 +142,14 @@ def measure(title: str, preset: str, colours: tuple[ChartColour, ...], most_nm: 
 def headline(chart: NamedChart) -> str:
     """Say how many names hold, and how far off those are at most."""
     farthest = np.abs(chart.offsets_nm[chart.kept]).max()
+    return f"{count(chart)}, the farthest of them {farthest:.0f} nm off"
+
+
+def count(chart: NamedChart) -> str:
+    """Say how many names hold, and how many would by chance."""
     return (
-        f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm, the farthest of "
-        f"them {farthest:.0f} nm off"
+        f"{chart.kept.sum()} of {chart.kept.size} names hold within ±{TOLERANCE_NM:.0f} nm (by chance "
+        f"{shuffled(chart, TOLERANCE_NM):.1f})"
     )
 
 
@@ -148,7 +164,8 @@ def numbers(chart: NamedChart) -> str:
     header = (
         "chart, nm: | name in the chart | hue words it may be | computed there | h_ab, °: | C*: | offset, nm:"
     )
-    return f"{summary}\n\n{table(header, [_row(chart, each) for each in chart.colours])}"
+    rows = table(header, [_row(chart, each) for each in chart.colours])
+    return f"{summary}\n\n{baseline(chart, TOLERANCE_NM)}\n\n{rows}"
 
 
 def _row(chart: NamedChart, colour: ChartColour) -> str:
@@ -196,11 +213,20 @@ def _draw_hues(axes: "Axes", chart: NamedChart) -> None:
         middle = (bound + end) / 2 if word != "magenta" else 347
         axes.text(chart.thickness_nm[-1] * 1.008, middle, word, size=6.8, color=FAINT, va="center")
     axes.scatter(chart.thickness_nm, look[:, 2], c=pixels, s=9, linewidths=0)
-    for colour, kept in zip(chart.colours, chart.kept, strict=True):
+    for colour, offset_nm in zip(chart.colours, chart.offsets_nm, strict=True):
         at = int(colour.thickness_nm - chart.thickness_nm[0])
-        style = {"facecolors": [pixels[at]], "edgecolors": INK if kept else MISSED, "clip_on": False}
-        axes.scatter([colour.thickness_nm], [look[at, 2]], s=46, linewidths=1.1, zorder=3, **style)
+        style = {"facecolors": [pixels[at]], "clip_on": False, **_ring(offset_nm)}
+        axes.scatter([colour.thickness_nm], [look[at, 2]], s=64, zorder=3, **style)
     axes.set_xlim(*chart.thickness_nm[[0, -1]])
     axes.set_ylim(0, 360)
     axes.set_yticks([0, 90, 180, 270, 360])
     dress(axes, "", "thickness of the film, nm", r"CIELAB hue $h_{ab}$, degrees")
+
+
+def _ring(offset_nm: float) -> dict[str, Any]:
+    """Return the ring of a name: solid where it holds at its thickness, broken where it holds near."""
+    if offset_nm == 0:
+        return {"edgecolors": INK, "linewidths": 1.3}
+    if abs(offset_nm) <= TOLERANCE_NM:
+        return {"edgecolors": INK, "linewidths": 1.1, "linestyles": [(0, (1.6, 1.6))]}
+    return {"edgecolors": MISSED, "linewidths": 1.3}

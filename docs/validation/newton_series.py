@@ -24,6 +24,7 @@ from nacreous.optics.refractive_index import refractive_index
 from nacreous.tables.presets import preset
 from validation import named_chart
 from validation.appearance import LUMINANCE, lightness_chroma_hue, shown
+from validation.baseline import baseline, shuffled
 from validation.comparison import Comparison
 from validation.drawing import FAINT, INK, dress, figure, strip
 from validation.film_colours import colours_over_thickness
@@ -142,11 +143,7 @@ def measure() -> NewtonSeries:
 def headline(series: NewtonSeries) -> str:
     """Say how near the tints are, and how many of Newton's names hold."""
     apart = max(abs(path_nm / known_nm - 1) for known_nm, path_nm in _tints(series))
-    kept = series.newtons_chart.kept
-    return (
-        f"three tints within {100 * apart:.1f} %; {kept.sum()} of {kept.size} names hold within "
-        f"±{TOLERANCE_NM:.0f} nm"
-    )
+    return f"three tints within {100 * apart:.1f} %; {named_chart.count(series.newtons_chart)}"
 
 
 def numbers(series: NewtonSeries) -> str:
@@ -162,7 +159,18 @@ def numbers(series: NewtonSeries) -> str:
         f"median offset is "
         f"{np.nanmedian(np.abs(chart.offsets_nm)):.0f} nm; n = {series.n:.3f} at {INDEX_AT_NM:.0f} nm."
     )
-    return f"{table(header, rows)}\n\n{newton} {_missed(chart)}"
+    return f"{table(header, rows)}\n\n{newton} {_missed(chart)}\n\n{_by_chance(chart)}"
+
+
+def _by_chance(chart: NamedChart) -> str:
+    """Say how far his names are apart, and how many hold by chance within 20 nm and within half of that."""
+    step_nm = float(np.median(np.diff([each.thickness_nm for each in chart.colours])))
+    kept = int(chart.kept_within(step_nm / 2).sum())
+    return (
+        f"{baseline(chart, TOLERANCE_NM)} Newton's names are {step_nm:.0f} nm of water apart in the median, "
+        f"so that {TOLERANCE_NM:.0f} nm is nearly a step. Within half a step, {step_nm / 2:.0f} nm, {kept} "
+        f"hold; by chance, {shuffled(chart, step_nm / 2):.1f} would."
+    )
 
 
 def _tints(series: NewtonSeries) -> list[tuple[float, float]]:
@@ -240,7 +248,7 @@ def _draw_luminance(axes: "Axes", series: NewtonSeries) -> None:
     axes.set_xlim(*series.path_nm[[0, -1]])
     axes.set_ylim(0, 1.05)
     axes.set_yticks([0, 1])
-    dress(axes, "", r"path difference $2nd$, nm", "luminance")
+    dress(axes, "", r"path difference $2nd$, nm", "luminance,\nlargest = 1")
 
 
 COMPARISON = Comparison(

@@ -44,3 +44,16 @@ def test_an_unknown_name_is_refused(look_up: object, name: str, field: str, mean
         look_up(name)  # type: ignore[operator]
     assert repr(name) in str(refused.value)
     assert meant in refused.value.remedy
+
+
+@pytest.mark.parametrize(
+    ("look_up", "name", "common"),
+    [(colour_matching_functions, "nobody", OBSERVERS), (illuminant_power, "sunlight", ILLUMINANTS)],
+)
+def test_a_name_that_is_near_none_is_answered_with_the_common_ones(
+    look_up: object, name: str, common: tuple[str, ...]
+) -> None:
+    """Those that ship with the package; each of them is a name that is known."""
+    with pytest.raises(SpecError) as refused:
+        look_up(name)  # type: ignore[operator]
+    assert [each for each in common if each not in refused.value.remedy] == []

@@ -1,8 +1,10 @@
 """The spec: defaults, one meaning for every spelling, and messages that a person can act upon."""
 
 import json
+import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +16,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from nacreous.errors import SpecError
+from nacreous.optics.cie import ILLUMINANTS, OBSERVERS, colour_matching_functions, illuminant_power
 from nacreous.optics.surface import Surface
 from nacreous.tables.spec import (
     Spec,
@@ -345,6 +348,20 @@ def test_the_schema_describes_every_form() -> None:
     assert definitions["TableSpec"]["properties"]["cos_theta"]["oneOf"][1]["minItems"] == 2
     assert len(definitions["TableSpec"]["properties"]["theta_i"]["oneOf"]) == 4
     assert definitions["Surface"]["properties"]["masking"]["enum"] == ["v-cavity", "smith", "smith-separable"]
+
+
+@pytest.mark.parametrize(
+    ("field", "shipped", "look_up"),
+    [("illuminant", ILLUMINANTS, illuminant_power), ("observer", OBSERVERS, colour_matching_functions)],
+)
+def test_the_schema_names_what_a_colour_may_be_seen_by(
+    field: str, shipped: tuple[str, ...], look_up: Callable[[str], object]
+) -> None:
+    """Those that ship come first, in their order; every name is one that is known."""
+    description = json_schema()["$defs"]["ColourSpec"]["properties"][field]["description"]
+    names = re.findall(r"`+([^`]+)`+", " ".join(description.split()))
+    assert tuple(names[: len(shipped)]) == shipped
+    assert all(look_up(name) for name in names)
 
 
 def test_the_schema_has_the_bounds_of_json_schema() -> None:

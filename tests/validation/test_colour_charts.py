@@ -1,6 +1,8 @@
 """The charts of docs/validation.md again, from the reference film and colour-science."""
 
+from dataclasses import replace
 from functools import cache
+from itertools import permutations
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from nacreous.tables.presets import preset
 from reference import film
 from reference_colour import WAVELENGTH_NM, linear_rgb
 from validation import anodised_titanium, silica_on_silicon
+from validation.baseline import shuffled, stretched
 from validation.named_chart import TOLERANCE_NM, ChartColour, NamedChart
 
 FloatArray = NDArray[np.float64]
@@ -87,3 +90,29 @@ def test_an_offset_is_the_way_to_where_the_name_holds() -> None:
     chart = NamedChart("", (ChartColour(100, "blue"), ChartColour(150, "blue")), thickness_nm, rgb)
     np.testing.assert_array_equal(chart.offsets_nm, [30, 0])
     np.testing.assert_array_equal(chart.kept, [False, True])
+
+
+def two_halves() -> NamedChart:
+    """Return a film that is orange up to 150 nm and blue from there on, with two names of a chart."""
+    thickness_nm = np.arange(50.0, 250.0)
+    rgb = np.where((thickness_nm < 150)[:, None], [0.5, 0.2, 0.05], [0.1, 0.2, 0.6])
+    return NamedChart("", (ChartColour(90, "gold"), ChartColour(170, "blue")), thickness_nm, rgb)
+
+
+def test_the_baseline_of_shuffled_names_is_the_mean_over_every_order() -> None:
+    """Counted order by order, with `itertools`; of two names that exclude each other one order holds."""
+    chart = two_halves()
+    assert shuffled(chart, 10.0) == 1.0  # 2 of 2, and 0 of 2
+    places_nm = [90.0, 145.0, 170.0]
+    names = ["gold", "blue", "blue"]
+    counts = [
+        replace(chart, colours=tuple(map(ChartColour, places_nm, order))).kept_within(10.0).sum()
+        for order in permutations(names)
+    ]
+    three = replace(chart, colours=tuple(map(ChartColour, places_nm, names)))
+    assert shuffled(three, 10.0) == pytest.approx(np.mean(counts))
+
+
+def test_wrong_thicknesses_lose_names() -> None:
+    """Of gold at 90 nm and blue from 150 nm on, read at 170 nm: seven tenths of 170 nm are 31 nm off."""
+    assert [stretched(two_halves(), factor) for factor in (0.7, 0.9, 1.0, 1.1)] == [1, 2, 2, 2]

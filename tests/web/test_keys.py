@@ -75,6 +75,15 @@ def test_probes_and_the_page_are_open(guarded: RunningApp, path: str) -> None:
     assert guarded.get(path).status_code == 200
 
 
+def test_the_openapi_document_says_which_routes_want_a_key(guarded: RunningApp) -> None:
+    """A GET with a fixed path lists 401 where it answers 401 without a key, and nowhere else."""
+    paths = guarded.get("/openapi.json").json()["paths"]
+    listed = {path: "401" in routes["get"]["responses"] for path, routes in paths.items() if "get" in routes}
+    fixed = {path: lists for path, lists in listed.items() if "{" not in path}
+    assert {"/healthz", "/readyz", "/metrics", "/v1/presets"} <= fixed.keys()
+    assert fixed == {path: guarded.get(path).status_code == 401 for path in fixed}
+
+
 def test_a_preflight_needs_no_key(guarded: RunningApp) -> None:
     """Browsers send none with it (Fetch, section 3.3.5); the origin is named, no other is."""
     asked = {"access-control-request-method": "GET", "access-control-request-headers": "authorization"}

@@ -41,7 +41,7 @@ def colour_matching_functions(observer: str) -> tuple[FloatArray, FloatArray]:
     colour = _colour_science()
     names = {name for name in colour.MSDS_CMFS if "Standard Observer" in name or "Cone" in name}
     if observer not in names:
-        raise _unknown("colour.observer", "a standard observer", observer, names)
+        raise _unknown("colour.observer", "a standard observer", observer, names, OBSERVERS)
     functions = colour.MSDS_CMFS[observer]
     return np.asarray(functions.wavelengths), np.asarray(functions.values).T
 
@@ -59,7 +59,8 @@ def illuminant_power(illuminant: str) -> tuple[FloatArray, FloatArray]:
         return table[:, 0], table[:, 1 + ILLUMINANTS.index(illuminant)]
     colour = _colour_science()
     if illuminant not in colour.SDS_ILLUMINANTS:
-        raise _unknown("colour.illuminant", "an illuminant", illuminant, set(colour.SDS_ILLUMINANTS))
+        names = set(colour.SDS_ILLUMINANTS)
+        raise _unknown("colour.illuminant", "an illuminant", illuminant, names, ILLUMINANTS)
     power = colour.SDS_ILLUMINANTS[illuminant]
     return np.asarray(power.wavelengths), np.asarray(power.values)
 
@@ -94,6 +95,8 @@ def _colour_science() -> Any:  # noqa: ANN401 - it has no types
     return colour
 
 
-def _unknown(field: str, expected: str, got: str, known: set[str]) -> SpecError:
-    remedy = did_you_mean(got, known, otherwise="the names are those of colour-science")
+def _unknown(field: str, expected: str, got: str, known: set[str], common: tuple[str, ...]) -> SpecError:
+    """Return the error of a name that is not known: names close to it, or else the common ones."""
+    listed = f"{', '.join(common[:-1])} and {common[-1]}"
+    remedy = did_you_mean(got, known, otherwise=f"common names are {listed}")
     return SpecError(field, f"{expected} known to colour-science", repr(got), remedy)

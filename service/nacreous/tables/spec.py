@@ -72,9 +72,13 @@ class ColourSpec(StrictModel):
     Parameters
     ----------
     illuminant : str
-        The light under which the film is seen, by colour-science's name of it, such as ``D65`` or ``A``.
+        The light under which the film is seen, by colour-science's name of it. ``A``, ``C``, ``D50``,
+        ``D55``, ``D65``, ``D75`` and ``E`` ship with Nacreous. Others are ``D60``, the fluorescent lamps
+        ``FL1`` to ``FL12``, and LEDs, such as ``LED-B1``.
     observer : str
-        The colour-matching functions, by colour-science's name of them.
+        The colour-matching functions, by colour-science's name of them. ``CIE 1931 2 Degree Standard
+        Observer`` and ``CIE 1964 10 Degree Standard Observer`` ship with Nacreous. Others are
+        ``CIE 2015 2 Degree Standard Observer`` and ``CIE 2015 10 Degree Standard Observer``.
     space : str
         The linear RGB space of colour tables, or XYZ.
     """

@@ -28,6 +28,7 @@ __all__ = [
     "READS_SWEEP",
     "answered",
     "binary",
+    "open_problems",
     "operation_link",
     "problems",
     "query_parameter",
@@ -67,13 +68,18 @@ def operation_link(path: str, **parameters: str) -> dict[str, Any]:
 
 
 def problems(*statuses: int) -> Responses:
-    """Return the entries of problems; 401 and 503 are possible wherever a route is."""
+    """Return the entries of problems; 401 and 503 are possible wherever a route wants a key."""
+    return open_problems(*statuses, 401)
+
+
+def open_problems(*statuses: int) -> Responses:
+    """Return the entries of the problems of a route that wants no key; 503 is possible there, too."""
     return {
         status: {
             "description": HTTPStatus(status).phrase,
             "content": {MEDIA_TYPE: {"schema": {"$ref": _REF.format(model=ProblemAnswer.__name__)}}},
         }
-        for status in sorted({*statuses, 401, 422, 431, 503})
+        for status in sorted({*statuses, 422, 431, 503})
     }
 
 

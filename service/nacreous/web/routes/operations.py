@@ -9,7 +9,7 @@ from starlette.responses import Response
 import nacreous
 from nacreous.web.answers import Health, Readiness, document
 from nacreous.web.metrics import CONTENT_TYPE_LATEST
-from nacreous.web.openapi import answered, problems
+from nacreous.web.openapi import answered, open_problems, problems
 from nacreous.web.problems import ProblemError
 from nacreous.web.queries import query
 from nacreous.web.service import service_of
@@ -21,7 +21,7 @@ router = APIRouter(tags=["operations"])
 _NEVER = {"Cache-Control": "no-store"}
 
 
-@router.get("/healthz", responses=answered(Health, HTTPStatus.OK) | problems())
+@router.get("/healthz", responses=answered(Health, HTTPStatus.OK) | open_problems())
 async def healthz(request: Request) -> Response:
     """Tell that the process answers; nothing else is looked at."""
     query(request)
@@ -29,7 +29,7 @@ async def healthz(request: Request) -> Response:
     return Response(document(answer), headers=_NEVER, media_type="application/json")
 
 
-@router.get("/readyz", responses=answered(Readiness, HTTPStatus.OK) | problems())
+@router.get("/readyz", responses=answered(Readiness, HTTPStatus.OK) | open_problems())
 async def readyz(request: Request) -> Response:
     """Tell whether tables are computed; 503 says why not."""
     query(request)
