@@ -128,14 +128,17 @@ class WorkerProcess:
             os.killpg(self._process.pid, signal.SIGKILL)
 
     async def close(self, seconds: float) -> None:
-        """Ask the process to end, and end it where it does not within `seconds`."""
+        """Ask the process to end, and end it where it does not within `seconds`.
+
+        A supervision that is being cancelled ends here, where `asyncio.timeout` of Python before 3.11.3
+        raises `CancelledError` in the place of its own error.
+        """
         assert self._process.stdin is not None  # noqa: S101 - it has been started with PIPE
         self._process.stdin.close()
         try:
-            async with asyncio.timeout(seconds):
-                await self._process.wait()
-        except TimeoutError:
-            self.kill()
+            _, running = await asyncio.wait({asyncio.create_task(self._process.wait())}, timeout=seconds)
+            if running:
+                self.kill()
         finally:
             await self.ended()
 
