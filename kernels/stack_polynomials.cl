@@ -54,11 +54,15 @@ INLINE lane squared_spread(peak largest, field f, lane b) {
     return (b * b * largest.E + largest.H) / complex_norm(split_field(f, b).incident);
 }
 
-// By how much the error of R and T is more than that of a digit, squared. Looked at between the nodes, too, where a
-// resonance would be: at the angles after them.
-INLINE lane spread_of(film_stack stack, global const real *incident, global const real *runs, int block, int angles) {
+// By how much the error of R and T is more than that of a digit, squared, for s and p: a maximum of both could lose what
+// is no number in one. Looked at between the nodes, too, where a resonance would be: at the angles after them.
+typedef struct {
+    lane s, p;
+} spreads;
+
+INLINE spreads spreads_of(film_stack stack, global const real *incident, global const real *runs, int block, int angles) {
     peak s = {(lane)(0), (lane)(0)}, p = s;
-    lane spread = (lane)(0);
+    spreads spread = {(lane)(0), (lane)(0)};
     for (int angle = TERMS; angle < angles; ++angle) {
         incidence in = incidence_without_waves(stack, incident, block, angle);
         column f = polynomial_field(runs, in.chebyshev, in.substrate.s);
@@ -67,7 +71,8 @@ INLINE lane spread_of(film_stack stack, global const real *incident, global cons
     for (int angle = TERMS; angle < angles; ++angle) {
         incidence in = incidence_without_waves(stack, incident, block, angle);
         column f = polynomial_field(runs, in.chebyshev, in.substrate.s);
-        spread = lane_max(spread, lane_max(squared_spread(s, f.s, in.b_s), squared_spread(p, f.p, in.b_p)));
+        spread.s = lane_max(spread.s, squared_spread(s, f.s, in.b_s));
+        spread.p = lane_max(spread.p, squared_spread(p, f.p, in.b_p));
     }
     return spread;
 }
@@ -91,7 +96,7 @@ INLINE void node_columns(column columns[2], film_stack stack, incidence in, lane
 kernel void stack_polynomials(FILM_ARGUMENTS, // cos_theta: the nodes, TERMS, and after them the probes
                               constant real *to_chebyshev, // (TERMS, TERMS): order, node
                               global real *filled,         // (thicknesses, blocks, STACK_RUNS, LANES)
-                              global real *spread) {       // (thicknesses, stride)
+                              global real *spread) {       // (thicknesses, 2, stride): s, p
     int block = get_global_id(0), number = get_global_id(1), blocks = stride / LANES;
     if (block >= blocks || number >= row_stop) return;
 
@@ -116,5 +121,7 @@ kernel void stack_polynomials(FILM_ARGUMENTS, // cos_theta: the nodes, TERMS, an
     }
     lane_store(most, runs, STACK_DECAY);
     lane_store((lane)(is_lossless_stack(stack, block)), runs, STACK_LOSSLESS);
-    lane_store(spread_of(stack, incident, runs, block, angles), spread, number * blocks + block);
+    spreads found = spreads_of(stack, incident, runs, block, angles);
+    lane_store(found.s, spread, 2 * number * blocks + block);
+    lane_store(found.p, spread, (2 * number + 1) * blocks + block);
 }

@@ -110,6 +110,14 @@ def test_a_cavity_keeps_its_layers(device: Device) -> None:
     assert largest_error(device, problem) <= 2 * TOLERANCE
 
 
+def test_a_field_that_leaves_the_range_keeps_its_layers(device: Device) -> None:
+    """18 quarter-wave pairs of index 400 and 1 grow a field to 1e46: coefficients are no numbers."""
+    n, d_nm = [1.0, *[400.0, 1.0] * 18, 1.5], [0.3, 60.0] * 18
+    problem = one_run(plain_problem(n, d_nm, WAVELENGTH_NM, MU))
+    assert stack_degree(problem, Precision.SINGLE)
+    assert form_of(device, problem) is Form.OF_LAYERS
+
+
 def test_every_thickness_has_coefficients_of_its_own(device: Device) -> None:
     """Scales and variants: each row is the film of its thicknesses, and variants are averaged."""
     problem = stack("metal")

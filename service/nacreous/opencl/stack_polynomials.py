@@ -106,7 +106,7 @@ def stack_polynomials(
     thicknesses = int(np.prod(problem.thickness_nm.shape[:2]))
     stride = -(-problem.wavelength_nm.size // lanes) * lanes
     filled = empty_buffer(device, (thicknesses, stride, _runs(degree)), dtype)
-    spread = np.empty((thicknesses, stride), dtype)
+    spread = np.empty((thicknesses, 2, stride), dtype)
     spread_buffer = empty_buffer(device, spread.shape, dtype)
     mu = _nodes_and_probes(degree)
     angles, of_angles = upload(device, mu, dtype), upload(device, _chebyshev(mu, degree), dtype)
