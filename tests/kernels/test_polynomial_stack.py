@@ -110,6 +110,13 @@ def test_a_cavity_keeps_its_layers(device: Device) -> None:
     assert largest_error(device, problem) <= 2 * TOLERANCE
 
 
+def test_a_field_that_is_least_at_grazing_incidence_is_looked_at_there(device: Device) -> None:
+    """On metal H of p falls within the last degrees, short of the first angle between the nodes: layers stay."""
+    problem = one_run(plain_problem([1.0, 1.5, 0.25 + 8.1j], [80.0], np.linspace(350, 400, 16), MU))
+    assert stack_degree(problem, Precision.SINGLE)
+    assert form_of(device, problem) is Form.OF_LAYERS
+
+
 def test_a_field_that_leaves_the_range_keeps_its_layers(device: Device) -> None:
     """18 quarter-wave pairs of index 400 and 1 grow a field to 1e46: coefficients are no numbers."""
     n, d_nm = [1.0, *[400.0, 1.0] * 18, 1.5], [0.3, 60.0] * 18
