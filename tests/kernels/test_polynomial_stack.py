@@ -111,7 +111,7 @@ def test_a_cavity_keeps_its_layers(device: Device) -> None:
 
 
 def test_a_field_that_is_least_at_grazing_incidence_is_looked_at_there(device: Device) -> None:
-    """On metal H of p falls within the last degrees, short of the first angle between the nodes: layers stay."""
+    """On metal H of p falls within the last degrees, short of the first probe between nodes."""
     problem = one_run(plain_problem([1.0, 1.5, 0.25 + 8.1j], [80.0], np.linspace(350, 400, 16), MU))
     assert stack_degree(problem, Precision.SINGLE)
     assert form_of(device, problem) is Form.OF_LAYERS
